@@ -115,7 +115,7 @@ class Pins:
         self._component[self._prefix + name] = value
 
     def rose(self, name: str) -> bool:
-        """Return True if the pin `name` was False or not read at the last call, and is True now."""
+        """Return True if the pin `name` is True, and was False at the last call or was not read before."""
         before, self._levels[name] = self._levels.get(name, False), bool(self[name])
         return self._levels[name] and not before
 

@@ -127,8 +127,8 @@ class Positioner:
     def switches(self) -> Switches:
         """Read the switches.
 
-        On a PMC006B4, EXT1 is the limit switch in direction backward (CCW), EXT2 the one in direction forward
-        (CW).
+        On a PMC006B4, EXT1 is the limit switch in direction backward (CCW), and EXT2 is the limit switch in
+        direction forward (CW).
         """
         with self.lock:
             cw, ccw, origin = self._drive.switches()

@@ -1,4 +1,4 @@
-"""Text on stdout and stderr with any encoding.
+"""Output of text to stdout and stderr, which may have any encoding.
 
 The streams may be closed or full, and the reader may end early.
 """
@@ -24,7 +24,7 @@ TERMINAL_CLOSED = 129
 NARROW = 80
 """Number of columns of a terminal below which a table that is too wide is printed as a list.
 
-On such a terminal, help is plain text.
+On a terminal with fewer columns, the help is plain text.
 """
 
 ASCII = {

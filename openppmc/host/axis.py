@@ -215,7 +215,7 @@ class Axis(Checked):
     def remaining(self) -> int:
         """Return the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
-        The register holds the number of remaining pulses minus 1, or 0.
+        The register holds the number of remaining pulses minus 1; if no pulse remains, it holds 0.
         """
         return self.link.execute(Script().call(self._read_codes.remaining | self._code_bits).get(3)).number(1)
 
@@ -311,7 +311,7 @@ class Axis(Checked):
         self._known_count = 0
 
     def _at_rest(self, script: Script) -> None:
-        """Execute a script only if BUSY = 0. The bridge checks this condition."""
+        """Execute a script on condition that BUSY = 0; the bridge checks this before the first operation."""
         answer = self.link.attempt(
             Script().timeout(0).wait(1, self._busy_mask, 0).timeout(250).extend(script)
         )

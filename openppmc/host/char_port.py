@@ -82,7 +82,7 @@ class CharBus:
     def _ask(self, request: bytes) -> int:
         """Send a request and return the character of its answer. Raises NoAnswer."""
         while self._line.read(0):
-            pass  # late answers to requests that have ended with NoAnswer
+            pass  # discard late answers to requests that have ended with NoAnswer
         self._line.write(request)
         end = self._line.clock() + ANSWER_SECONDS
         while not (answer := self._line.read(max(0.0, end - self._line.clock()))):

@@ -187,7 +187,7 @@ def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
 def moves(cases: Sequence[Sequence[Any]]) -> str:
     """Return a table of worked moves.
 
-    Each row has a name, ramp and command, then the text, gap and event of a disturbance, if any.
+    A row has a name, ramp and command and, if the move is disturbed, text, gap and event of the disturbance.
     """
     heads = [
         "No.",
@@ -275,7 +275,7 @@ def times(inits: Sequence[Sequence[Any]], motions: Sequence[Sequence[Any]]) -> s
     """Return a table of times with both timings, at 16 MHz with the internal clock.
 
     Args:
-        inits, motions: text, and arguments of `init_time` and `motion_time`.
+        inits, motions: rows with a text and the arguments of `init_time` or `motion_time`.
     """
     measured = [(init_time, row) for row in inits] + [(motion_time, row) for row in motions]
     rows = [

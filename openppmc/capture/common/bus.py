@@ -56,7 +56,7 @@ def accesses(
         turn = np.empty(len(kinds), bool)
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
-        # The two lowest bits of an entry hold the kind of the strobe, the bits above them hold its time.
+        # The two lowest bits of an entry contain the kind of the strobe; all higher bits contain its time.
         turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)

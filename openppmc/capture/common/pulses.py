@@ -49,7 +49,7 @@ def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
     if train.directions is not None:
         split |= train.directions[1:] != train.directions[:-1]
     # The intervals of slow pulses may be longer than `pause`. Therefore, an interval of at most 2.5 times the
-    # previous interval does not separate groups.
+    # previous interval does not end a group.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
         turned = train.directions is not None and train.directions[place] != train.directions[place + 1]

@@ -10,7 +10,7 @@ from .part_decoder import Access, Accesses, Line
 from .signals import numpy
 
 KNOWN = 1000
-"""Number of rows whose texts are cached."""
+"""Largest number of rows whose texts are cached."""
 
 
 class BusAccess(NamedTuple):

@@ -225,8 +225,7 @@ class Window:
                 left = self._bytes_left
         failed = answer.failed
         if left and failed is not None and failed.code[0] == WAIT_READ and answer.result is Result.TIMED_OUT:
-            # The failed wait has already read the cause byte, which is not NORMAL.
-            # It belongs to the response.
+            # The failed wait has already read the cause byte of the response, which is not NORMAL.
             self._feed(left, [answer.last])
         if answer.result is Result.TIMED_OUT and (received or not patient):
             return found

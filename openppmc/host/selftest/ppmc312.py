@@ -47,7 +47,7 @@ def read_responses(access: PartAccess, seconds: float) -> None:
         left = EMPTY - access.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        access.link.forget_events()  # discard the event of this response; the next response has another one
+        access.link.forget_events()  # discard this event; the next response causes another one
         access.read(READ, left)
         access.pause(0.001)
 

@@ -108,7 +108,7 @@ def recording_of(
     inputs: Mapping[str, int],
     outputs: Mapping[str, int],
 ) -> Recording:
-    """Return the recording of the part from its reset on.
+    """Return the recording of the part, beginning with its reset.
 
     If an output does not have its reset level in reset, the recording contains an additional edge of this
     output, which the comparison reports as a difference.

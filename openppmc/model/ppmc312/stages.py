@@ -77,7 +77,7 @@ class Table:
 
     @property
     def slowest(self) -> int:
-        """Rmax, the slowest rate of an instruction."""
+        """Rmax: slowest rate that an instruction may contain."""
         return self.rates[self.first]
 
     @property
@@ -92,12 +92,12 @@ class Table:
 
     @cached_property
     def sums_up(self) -> list[int]:
-        """For each stage, the sum of acceleration pulses of this stage and of all slower stages."""
+        """For each stage, the sum of the acceleration pulses in this stage and in all slower stages."""
         return list(accumulate(self.pa))
 
     @cached_property
     def sums_down(self) -> list[int]:
-        """For each stage, the sum of deceleration pulses of this stage and of all slower stages."""
+        """For each stage, the sum of the deceleration pulses in this stage and in all slower stages."""
         return list(accumulate(self.pd))
 
     def stage(self, rate: int) -> int:
@@ -249,7 +249,7 @@ class FreeCurve:
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Process the code block; check for the errors 0x10 and 0x11.
+        """Process the code block, and check it for the errors 0x10 and 0x11.
 
         Args:
             parameters: bytes after the code.

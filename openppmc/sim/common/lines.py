@@ -163,7 +163,7 @@ class SimLine(Child):
         say: function that prints a line if a step takes long; by default, it prints on standard error.
 
     Attributes:
-        spec: the requested line.
+        spec: settings of the line, as parsed from the text of the port.
     """
 
     def __init__(self, text: str, part: str = "", say: Callable[[str], None] | None = None) -> None:

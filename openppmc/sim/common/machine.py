@@ -17,7 +17,7 @@ from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
-"""Words that only a machine with an encoder supports."""
+"""Words of a port's text that only a machine with an encoder supports."""
 _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
@@ -83,7 +83,7 @@ def machine_kind(part: str) -> MachineKind:
 
 
 def own_words() -> tuple[str, ...]:
-    """Return the words that only one part supports."""
+    """Return the words of a port's text that only one part supports."""
     return tuple(word for part in machine_parts() for word in machine_kind(part).own)
 
 

@@ -316,8 +316,8 @@ class Part(Pmc006):
 class Node(Carrier[Part], LineStation[Part]):
     """Controller with its mechanical load, after boot.
 
-    `position` is the position of the load in 1/16 full steps; the part itself counts steps. The switches do
-    not bounce.
+    `position` is the position of the load in 1/16 full steps; the position register of the part counts steps.
+    The switches do not bounce.
 
     Args:
         number: initial address of the controller.

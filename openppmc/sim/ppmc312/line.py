@@ -164,7 +164,7 @@ def _station(item: str, text: str) -> int:
 
 
 class Station(Carrier, LineStation[Ppmc312]):
-    """Station with motor and encoder; `straps` sets RUN and the event inputs."""
+    """Station with its motor and encoder. The method `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
         straps = {"mode": 0, "mod": SPEEDS[spec.baud], "adr": number}

@@ -18,7 +18,7 @@ class Access(NamedTuple):
     """One access of the host.
 
     Attributes:
-        t: first edge with the strobe.
+        t: first edge at which the strobe is active.
     """
 
     t: int

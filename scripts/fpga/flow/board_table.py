@@ -40,7 +40,7 @@ class Board:
     part: str = "ppmc104"
     code: str = ""  # four letters in the build ID of its bitstreams
     chip: str = ""  # Gowin family name for nextpnr and the packer
-    recipe: str = ""  # recipe of yosys_job; "" is the best recipe of the family
+    recipe: str = ""  # recipe of yosys_job; "" selects the best recipe of the family
 
     def folder(self, host: str) -> Path:
         """Return build/boards/<board> for the UART host, build/boards/<board>-<host> for another host."""

@@ -1,4 +1,4 @@
-"""The workers of a campaign: processes of this machine, or those of a scheduler on the network.
+"""The workers of a campaign: processes of this machine, or the workers of a scheduler on the network.
 
 Dask is imported only when a cluster is opened, so that `make test` does not need it.
 """

@@ -22,7 +22,7 @@ def _own_tree() -> str:
 
 
 class OwnSession(WorkerPlugin):  # type: ignore[misc]
-    """Processes with a separate session: Ctrl-C reaches only the campaign, not its workers and simulators."""
+    """Processes in a separate session, so that Ctrl-C does not reach the workers and their simulators."""
 
     name = "openppmc-own-session"
 

@@ -21,7 +21,7 @@ Figures = dict[str, dict[str, Any]]
 FILE = DOCS / "sizes.json"
 COUNTS = {"lut": "LUT", "ff": "FF", "ram": "block RAM"}
 LIMIT = 5
-"""Growth of a count in per cent that `make size` accepts."""
+"""Largest growth of a count, in per cent, that `make size` accepts."""
 RUNS = TURNS * SEEDS
 PEER = "peer "
 """Beginning of the keys of designs whose sources are not in this tree."""

@@ -37,7 +37,7 @@ WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(Q
 
 
 def wave(unit: int) -> int:
-    """Return the signed sine of an angle in units, -256..256.
+    """Return the sine of an angle in units, as a signed number -256..256.
 
     The other quarters are calculated from this table by symmetry.
     """

@@ -1,4 +1,4 @@
-"""Conversion of text to a program, with labels, constants and comments, and back.
+"""Conversion of a text with labels, constants and comments to a program, and of a program to a text.
 
 >>> assemble("again: ROT 200 ; there\\nWAIT busy, 0\\nJMP again").words[:6]
 (1, 200, 2064, 0, 13, 0)

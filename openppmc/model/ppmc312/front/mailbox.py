@@ -44,7 +44,7 @@ class Strobes:
     """Strobes of the bus.
 
     Args:
-        registers: the current registers. They are in reset up to and including edge `_closed`.
+        registers: the current registers, which are in reset up to and including edge `_closed`.
     """
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:

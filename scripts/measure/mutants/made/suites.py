@@ -56,7 +56,7 @@ def _may_reach(group: Group, file: str) -> bool:
 
 
 def _rank(group: Group, file: str) -> int:
-    """Return the rank of a group: blocks, directed, random; -1 for tests that do not simulate the file."""
+    """Return the rank of a group, the lowest runs first; -1 for tests that do not simulate the file."""
     folder, first = file.split("/")[1], group[0]
     if first.startswith(BLOCKS.get(folder, ())):
         return 0
