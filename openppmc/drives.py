@@ -119,7 +119,7 @@ class SettingsDrive(Drive):
     has_acceleration = True
 
     _before: tuple[tuple[str, int], ...] = ()  # settings that `initialise` restores
-    _kept: tuple[tuple[str, int], ...] = ()  # settings when the speeds were last read
+    _kept: tuple[tuple[str, int], ...] = ()  # values of the settings at the last read of the speeds
 
     def attach(self, axis: Any) -> None:
         super().attach(axis)

@@ -68,7 +68,7 @@ class Units:
 
 
 class Abandoned(Exception):  # noqa: N818 - not an error
-    """A put has no result: the IOC ends while the motion continues, or another put has replaced the put."""
+    """A put has no result: the IOC ends while the motion continues, or another put has replaced it."""
 
 
 class Alarm(ChannelAlarm):  # type: ignore[misc]
@@ -376,7 +376,7 @@ class Motor(PVGroup):  # type: ignore[misc]
     async def _put(self, name: str, write: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
         """Execute the put of a client and return its status; log a rejection.
 
-        An exception here would be an ErrorResponse, and the threading client of caproto does not expect one.
+        An exception here would cause an ErrorResponse, which the threading client of caproto does not expect.
         """
         try:
             return await write(*arguments, **options)

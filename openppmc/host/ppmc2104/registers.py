@@ -35,7 +35,7 @@ from ..speeds import Number, exact, nearby
 
 
 class IncompleteCommand(CommandRefused):
-    """Error 3 of the PPMC-2104: a command arrived while the part waits for the data of another command."""
+    """Error 3 of the PPMC-2104: a command arrived while the part was waiting for the data of another one."""
 
     text = (
         "the part was still waiting for the data of another command, and both are dropped: another program "

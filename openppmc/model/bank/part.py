@@ -3,10 +3,10 @@
 The bank processes its axes in turn; a visit of an axis is an edge of `clk` at which it processes this axis.
 The model is event driven and cycle-accurate.
 
-`chip` and `clock` define pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
-BANK-WIN; `chopper` the times of the visits and BANK-CHP; `axis` (one object per axis) BANK-GEN-04; `commands`
-BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. All other behaviour is
-that of the PPMC-104.
+`chip` and `clock` define pins and time. Rules by module: BANK-GEN-01, -02 and -05 are in this module;
+BANK-WIN is in `window`, BANK-CHP in `chopper` (which also calculates the times of the visits), BANK-GEN-04 in
+`axis` (one object per axis), BANK-HSK, BANK-GEN-03 and BANK-INI in `commands`, BANK-MOT and BANK-HLD in
+`motion`, BANK-GRP in `group`. In all other respects, an axis behaves like a PPMC-104.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Golden model of the PPMC-312 at pin level, event driven and cycle-accurate.
 
-`chip` and `clock` define pins and time. `front` contains the host interface, `instructions` the instructions,
-`stages` tables and plans, `motion` motion, positions, inputs and outputs; `core` connects them. This module
-contains P312-PRT-01..03, the reset and the software reset.
+`chip` and `clock` define pins and time. The other modules are `front` (host interface), `instructions`,
+`stages` (tables, plans of moves) and `motion` (motions, positions, inputs, outputs); `core` connects them.
+This module contains P312-PRT-01..03, the reset and the software reset.
 """
 
 from __future__ import annotations

@@ -146,7 +146,7 @@ def sigmoid_weights() -> tuple[int, ...]:
 
 
 def _shares(sigmoid: bool) -> list[Fraction]:
-    """Return the position of each stage between the slowest (0) and the fastest speed (1)."""
+    """Return the position of each stage on a scale from the slowest speed (0) to the fastest speed (1)."""
     if sigmoid:
         return [Fraction(w, 65536) for w in sigmoid_weights()]
     return [Fraction(i, LAST) for i in range(STAGES)]

@@ -1,6 +1,6 @@
 """`python -m scripts.fpga.packages --try`: use the packages as a new user does.
 
-`--verilator PROGRAM` selects another Verilator, as do users who have their own: `make lint VERILATOR=…`.
+`--verilator PROGRAM` selects another Verilator, for example that of a user: `make lint VERILATOR=…`.
 """
 
 from __future__ import annotations

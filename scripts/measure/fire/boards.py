@@ -18,7 +18,7 @@ class BridgeBoard:
     """Board with a bridge.
 
     Attributes:
-        starts: true positions of the motors at which the counters of a new board are 0.
+        starts: true positions of the motors when the session begins; the counters of the board are then 0.
     """
 
     def __init__(self, text: str) -> None:
@@ -26,7 +26,7 @@ class BridgeBoard:
         self.starts = list(self.port.board.positions)
 
     def positions(self) -> list[int]:
-        """Return the true positions of the motors now."""
+        """Return the present true positions of the motors."""
         board = self.port.board
         board.run_until(board.t)
         return list(board.positions)
@@ -50,7 +50,7 @@ class LineBoard:
         self.starts = self.positions()
 
     def positions(self) -> list[int]:
-        """Return the true positions of the motors now."""
+        """Return the present true positions of the motors."""
         self.port.line.settle()
         return [self.port.line.stations[0].position]
 

@@ -208,7 +208,7 @@ def of_carriers() -> list[Design]:
 
 
 def of_bridges() -> list[Design]:
-    """Return host bridges with one address line, and recorders of several sizes."""
+    """Return the designs in BRIDGES, for each of their FPGA families."""
     found = []
     for top, title, params, families in BRIDGES:
         job = _job(top, list(project.files("char_host" if top == "ppmc_char_host" else "host")), params)

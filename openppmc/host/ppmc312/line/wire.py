@@ -1,8 +1,8 @@
 """Serial mode of the PPMC-312: frames, and their conversion from and to bus blocks. Pure.
 
 A frame consists of control code, hexadecimal characters and checksum. For most instructions, the content
-differs from the block on the parallel bus only in the code: here, the code includes the information of the
-flag byte.
+differs from the block on the parallel bus only in the code: in serial mode, there is no flag byte, because
+the code contains its information.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
