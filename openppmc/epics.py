@@ -392,7 +392,7 @@ class Motor(PVGroup):  # type: ignore[misc]
             OutOfRange: the record does not support puts to this field, or it does not support the value.
         """
         if hasattr(value, "item"):
-            value = value.item()  # x
+            value = value.item()  # of numpy
         if isinstance(value, float):
             finite(value, "value")
         if name in ("TWV", "SET") or (name in COMMANDS and not value):
@@ -500,7 +500,8 @@ class Ioc:
     Args:
         motors: axis and initial values of each record, by its name.
         log: called with one line for each problem.
-        reopen: called in a thread to open the device again after the port was lost; x
+        reopen: called in a thread to open the device again after the port was lost; with None,
+            the port stays lost.
 
     Attributes:
         threads: threads that use the device.

@@ -256,7 +256,7 @@ class StationLink(Checked):
         return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
 
     def _is_connected(self) -> bool:
-        """x, which is repeated once after noise.
+        """Return True if the controller replies to a poll; after noise, the poll is repeated once.
 
         Raises CorruptReply if both replies are corrupt.
         """
