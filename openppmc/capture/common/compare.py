@@ -354,7 +354,7 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 
 
 def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
-    """Return the time of the model divided by the time of the capture.
+    """Return the ratio of the time of the model to the time of the capture.
 
     The ratio is measured with long moves that both sides contain. Without such moves, it is 1.
     """
@@ -372,7 +372,7 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 
 
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
-    """Return the time of the model divided by the time of the capture.
+    """Return the ratio of the time of the model to the time of the capture.
 
     The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
 

@@ -69,7 +69,8 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
     """Return the figures of an undisturbed move.
 
     Times are in s, from the first to the last pulse; speeds are in pps. The ramps are computed interval by
-    interval, the plateau in closed form. Raises OutOfRange if the part does not support the number of pulses.
+    interval, the motion between them by a formula. Raises OutOfRange if the part does not support the number
+    of pulses.
     """
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:

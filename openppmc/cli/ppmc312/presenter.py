@@ -52,7 +52,7 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
     """Return the figures of an undisturbed move, as `presenter.key_figures` does.
 
-    The ramps are computed interval by interval, the plateau in closed form.
+    The ramps are computed interval by interval, the motion between them by a formula.
     """
     n = abs(pulses)
     plan = _plan(setup, n, speed)

@@ -177,7 +177,7 @@ class Axis(Settings):
         return motion
 
     def _start_executed(self, begin: int, reply: int) -> int | None:
-        """Return `reply`, the lost reply to a start, if the start was executed, else `None`.
+        """Return `reply` if a start, whose reply was lost, was executed; otherwise, return `None`.
 
         Before the start, the motor was stopped. The start was therefore executed if the motor moves or has
         moved.

@@ -28,11 +28,11 @@ class Memory(Axis):
     # ------------------------------------------------------------------ program in the buffer
 
     def load_program(self, program: Program, progress: OnCount | None = None) -> None:
-        """Write the words of a program that differ from the buffer, and read them back.
+        """Write those words of a program that differ from the buffer, and read these words back.
 
         Raises:
             ProgramRuns: a program is running.
-            ProgramVerifyFailed: a word reads back wrong.
+            ProgramVerifyFailed: a word that was read back differs from the program.
         """
         if self.program_runs():
             raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")

@@ -29,8 +29,8 @@ _LINES = {"scl_i", "sda_i"}
 class Pmc006(Chip):
     """One PMC006B4. The model starts just after the release of reset, before edge 0.
 
-    The arguments, written in capitals, are the names of the RTL parameters. pwm_a_ref and pwm_b_ref are not
-    in the log; `pwm` returns them.
+    The RTL parameters have the names of these arguments, in capitals. pwm_a_ref and pwm_b_ref are not in the
+    log; `pwm` returns them.
 
     Args:
         clk_hz: 8e6..200e6.

@@ -163,11 +163,11 @@ class CoreTiming:
     def filling(self, table: Table) -> int:
         """Return the cycles from the effect of instruction 00 to the last word of the table.
 
-        An arithmetic operation of n steps takes n + 4 cycles, a division one cycle more. The numbers of steps
-        are stated in parentheses, the symbols are those of P312-TBL-01, -02 and -04, and C = K Rs RH. First,
-        K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24), D / 2 (1), C + D / 2
-        and C / D (16 each), and, for each ramp, S + D (24) are calculated. In a second pass, D is calculated
-        again, and P D and its share of S (24 each) for each ramp that uses the stage.
+        An arithmetic operation of n steps takes n + 4 cycles, a division one cycle more. The numbers in
+        parentheses are numbers of steps. P312-TBL-01, -02 and -04 define the symbols, except that C = K Rs
+        RH. First, K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24), D / 2 (1),
+        C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated. In a second pass, D is
+        calculated again and, for each ramp that uses the stage, also P D and its share of S (24 each).
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)

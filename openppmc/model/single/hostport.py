@@ -132,7 +132,7 @@ class HostPort:
         """Sample new levels of the bus pins at edge t (P104-BUS-05, -06).
 
         Args:
-            stage: levels of the strobes in the synchroniser, where they differ from the pins.
+            stage: levels of strobe pins that the synchroniser samples, if they differ from `pins`.
         """
         _, reading = self._strobes(pins)
         writing, sampled = self._strobes({**pins, **stage} if stage else pins)

@@ -110,7 +110,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     Raises ValueError, which names the word that is wrong.
 
     Args:
-        known: further words, which the caller accepts and no part supports.
+        known: further words that are accepted; the caller processes them, because no part supports them.
     """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}

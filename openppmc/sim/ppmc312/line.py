@@ -77,7 +77,7 @@ class LineSpec:
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the line speed for a host appended, unless the text names a speed.
+    """Return the text of a port; unless it names a line speed, append the speed of the host.
 
     Raises ValueError if no speed matches the rate.
 

@@ -27,7 +27,7 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
-LABEL_GROWTH = 1.5  # factor, because WaveDrom's white area below a label fits a label without STYLES
+LABEL_GROWTH = 1.5  # growth of the white area below a label: WaveDrom's area fits labels without STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
