@@ -216,7 +216,7 @@ def _how_to_get_permission(path: str) -> str:
 def virtual(spec: str) -> str:
     """Return `spec` without `char:` if the port is virtual, else "".
 
-    A virtual port is `sim:…` or `model:…`; the colon may be missing if there are no options.
+    A virtual port is `sim:…` or `model:…`. Without options, the colon may be missing.
     """
     inner = spec.removeprefix(CHAR)
     return inner if f"{inner}:".startswith((MODEL, SIM)) else ""

@@ -261,7 +261,7 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
     """Return instruction 10: run at constant speed to the origin switch or its first index pulse.
 
-    The index pulse counts only while the switch is active.
+    With `index`, the search ends when the switch is active and the index pulse is present.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'

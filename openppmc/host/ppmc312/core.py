@@ -442,7 +442,8 @@ class Settings(Core[MotionT]):
     def limit_speed(self, pps: speeds.Number) -> None:
         """Set the speed limit that applies while a slow-down limit is active.
 
-        With the limit active, the motor runs at most at this speed. `None` sets the limit to the high speed.
+        While a slow-down limit is active, the motor runs below this speed. Each new table sets the limit to
+        its high speed.
         """
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))

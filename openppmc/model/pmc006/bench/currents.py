@@ -29,7 +29,7 @@ class Case:
     Attributes:
         cur: requested current in mA.
         mstep: microsteps per full step; 0 for full steps.
-        full: speed in full steps/s; at most 16000 divided by the microsteps.
+        full: speed in full steps/s. The speed in steps/s, full * max(1, mstep), is at most 16000.
         emf: amplitude of the back EMF in V; its phase is 90 degrees ahead of the reference.
         scomp: speed compensation P.
         periods: number of electrical cycles that are measured.

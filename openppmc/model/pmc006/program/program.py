@@ -54,7 +54,7 @@ class Program:
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Instructions up to the END that follows the last instruction other than END.
+        """Instructions up to and including the END after the last instruction that is not END.
 
         The result contains at least one instruction.
         """

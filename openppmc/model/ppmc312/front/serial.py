@@ -156,7 +156,7 @@ def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
 
 @unique
 class ReportCode(IntEnum):
-    """Data byte of each report that has its own reply code."""
+    """Data byte of each specific report, which is a reply of the kind SPECIFIC."""
 
     INTERLOCK = 0x22
     HOLD = 0x23
