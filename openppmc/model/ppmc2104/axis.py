@@ -87,7 +87,7 @@ class Windows:
         self.axis: int | None = None
 
     def open(self, t: int, us: int, axis: int | None) -> int:
-        """Open a window of `us` microseconds at edge t; return its last edge.
+        """Open a window of `us` microseconds (at a 16 MHz crystal) at edge t; return its last edge.
 
         Args:
             axis: 0 or 1, axis whose bit CMND is 1 during the window; `None` if no such bit is 1.
