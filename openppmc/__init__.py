@@ -1,3 +1,3 @@
-"""OpenPPMC in Python: golden models of the parts, a move predictor and the host software."""
+"""OpenPPMC in Python: golden models of the parts, prediction of moves, and host software."""
 
 __version__ = "1.0.0"

@@ -1,9 +1,9 @@
-"""Axis of any part for adapters to other control systems (`openppmc.linuxcnc`, `openppmc.positioner`).
+"""Axis of any part, for adapters to other control systems (`openppmc.linuxcnc`, `openppmc.positioner`).
 
-Commanded values are mapped to the settings of a part as follows. A PMC006B4 uses the next lower speed and the
-next lower acceleration. For the other parts, the length of the ramp is calculated from the commanded speeds
-and rounded up; their speeds are set to the nearest possible values (`host.speeds`). Units are pulses
-(PMC006B4: steps) and s.
+Commanded values are mapped to the settings of a part as follows. A PMC006B4 gets the next lower speed and the
+next lower acceleration that it supports. The other parts get the nearest speeds that they support
+(`host.speeds`), and a length of the ramp that is calculated from the commanded speeds and rounded up. Units
+are pulses (PMC006B4: steps) and s.
 """
 
 from __future__ import annotations
@@ -39,7 +39,10 @@ class Speeds(NamedTuple):
 
 
 class Drive:
-    """Axis with the functions that differ between parts. This class is for parts with a ramp as set-up."""
+    """Axis with the functions that differ between parts.
+
+    This class is for parts whose set-up contains the ramp.
+    """
 
     has_acceleration = False  # True if a setting of the part replaces the number of ramp pulses
     _prepared: object = None
@@ -48,7 +51,10 @@ class Drive:
         self.axis, self._request, self._active = axis, request, request
 
     def attach(self, axis: Any) -> None:
-        """Replace the object of the axis after a lost port was opened again; `initialise` restores it."""
+        """Replace the object of the axis after a lost port was opened again.
+
+        A later call of `initialise` restores the settings.
+        """
         self.axis, self._prepared = axis, None
 
     def initialise(self) -> None:
@@ -68,7 +74,7 @@ class Drive:
         return Speeds(base, top, 2 * setup.ramp_pulses / (base + top))
 
     def set_speeds(self, start: float, velocity: float, acceleration: float) -> None:
-        """Set the speeds (0: value of the set-up); the axis must be stopped. Raises OutOfRange."""
+        """Set the speeds; 0 selects the value of the set-up. The axis must be stopped. Raises OutOfRange."""
         if self._request is None:
             return
         high = float(velocity or self._request.high_pps)
@@ -80,7 +86,7 @@ class Drive:
         self._apply(replace(self._request, start_pps=low, high_pps=high, ramp_pulses=ramp))
 
     def prepare(self, *speeds: float) -> None:
-        """Call `set_speeds` if these values are new."""
+        """Call `set_speeds` unless these are the values of the last call."""
         if speeds != self._prepared:
             self.set_speeds(*speeds)
             self._prepared = speeds
@@ -90,7 +96,7 @@ class Drive:
         return self.axis.home(CW if sign > 0 else CCW, pps or None, progress=progress)
 
     def clear(self) -> None:
-        """Clear fault flags of the part; the next `prepare` sets the speeds."""
+        """Clear the fault flags of the part. The next `prepare` sets the speeds again."""
         self._prepared = None
         if hasattr(self.axis, "clear_alarm") and self.axis.status().in_alarm:
             self.axis.clear_alarm()
@@ -101,16 +107,19 @@ class Drive:
         return pins.limit_cw, pins.limit_ccw, pins.origin
 
     def leave_limit(self, target: int) -> None:
-        """Clear the flag of the limit that a move to this pulse leaves, if it prevents such a move."""
+        """Clear the flag of a limit switch if it prevents a move to `target`, away from this switch."""
 
 
 class SettingsDrive(Drive):
-    """Axis of a PMC006B4, whose speeds are settings. EXT1 is limit and origin backward, EXT2 forward."""
+    """Axis of a PMC006B4, whose speeds are settings.
+
+    EXT1 is both limit switch and origin switch in direction backward, and EXT2 is both in direction forward.
+    """
 
     has_acceleration = True
 
     _before: tuple[tuple[str, int], ...] = ()  # settings that `initialise` restores
-    _kept: tuple[tuple[str, int], ...] = ()  # settings when the speeds were last read
+    _kept: tuple[tuple[str, int], ...] = ()  # values of the settings at the last read of the speeds
 
     def attach(self, axis: Any) -> None:
         super().attach(axis)
@@ -121,7 +130,7 @@ class SettingsDrive(Drive):
         return self.axis.trigger  # type: ignore[no-any-return]
 
     def initialise(self) -> None:
-        # The station may have been reset: also restore the settings that were read last.
+        # The station may have been reset, so restore the settings that were read last as well.
         for name, value in (dict(self._kept) | dict(self._before)).items():
             setattr(self.axis, name, value)
         self._before = ()

@@ -42,7 +42,7 @@ POLL = 0.1
 RETRY = 2.0
 """Seconds from the end of an attempt to open a lost port to the next attempt."""
 COMMANDS = ("RLV", "TWF", "TWR", "HOMF", "HOMR", "STOP")
-"""Fields in which a value other than 0 is a command; after the command, they read as 0."""
+"""Fields to which a put of a value other than 0 is a command. After the command, their value is 0 again."""
 IN_UNITS = ("VAL", "RBV", "DRBV", "RLV", "TWV", "OFF", "HLM", "LLM")
 """Fields with the unit EGU."""
 DIRECTION, DONE, PLUS_LS, HOME_LS, PROBLEM = 0x1, 0x2, 0x4, 0x8, 0x200
@@ -55,7 +55,8 @@ class Units:
     """Initial values of a record.
 
     Attributes:
-        mres: position change of a pulse in `egu`, negative if the position decreases with CW.
+        mres: change of the position by one pulse, in `egu`; negative if the position decreases in direction
+        CW.
         prec: decimal places that clients show.
         limits: soft limits in `egu`; (0, 0) for no limits.
     """
@@ -71,7 +72,10 @@ class Abandoned(Exception):  # noqa: N818 - not an error
 
 
 class Alarm(ChannelAlarm):  # type: ignore[misc]
-    """Alarm of all fields of a record. A rejected put, which caproto reports as WRITE, does not change it."""
+    """Alarm of all fields of a record.
+
+    A rejected put does not change the alarm; caproto would change it to WRITE.
+    """
 
     async def write(self, *, status: Any = None, **others: Any) -> None:
         if status is not AlarmStatus.WRITE:
@@ -98,8 +102,8 @@ class Setpoint(PvpropertyDouble):  # type: ignore[misc]
 class Motor(PVGroup):  # type: ignore[misc]
     """Motor record of one axis.
 
-    A put that moves returns when the motor has stopped. Its status is ECA_PUTFAIL if the motion did not end
-    as requested.
+    A put that starts a motion returns when the motor has stopped. Its status is ECA_PUTFAIL if the motion did
+    not end as requested.
 
     Args:
         ioc: the IOC, which runs the threads of the record.
@@ -108,7 +112,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         units: initial values.
 
     Attributes:
-        moving: True from the start of a motion until no further motion is requested.
+        moving: True from the start of a motion until it has ended and no further motion is requested.
     """
 
     motor = pvproperty(value=0.0, dtype=Setpoint, name="", record="motor")
@@ -161,7 +165,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._publish()
 
     async def refresh(self) -> None:
-        """Publish the state of the part, which is read if no motion is in progress."""
+        """Publish the state of the part. It is read before, unless a motion is in progress."""
         if not self.moving:
             await self._call(self._look)
         await self._publish()
@@ -186,7 +190,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         return self._channels[name].value
 
     async def _set(self, **values: Any) -> None:
-        """Write the fields whose values differ from these, in the order of the arguments."""
+        """Write these values to their fields, in the order of the arguments, if the values are new."""
         for name, value in values.items():
             channel = self._channels[name]
             if channel.value is not value and channel.value != value:
@@ -248,10 +252,10 @@ class Motor(PVGroup):  # type: ignore[misc]
         """Execute a motion in a thread, after a stop of the motion in progress; wait until the motor stops.
 
         Args:
-            fields: fields that change at the start.
+            fields: fields that are written at the start, with their values.
 
         Raises:
-            PpmcError: the motion ended differently from its request.
+            PpmcError: the motion did not end as requested.
             Abandoned: a stop or another put replaced the motion.
         """
         self._next = job
@@ -299,7 +303,10 @@ class Motor(PVGroup):  # type: ignore[misc]
         return error
 
     async def _call(self, job: Callable[[], None]) -> Exception | None:
-        """Call a function in a thread; return its exception. While the port is lost, return the reason."""
+        """Call a function in a thread; return its exception.
+
+        If the port is lost, the function is not called, and the error of the port is returned.
+        """
         if self._ioc.lost is not None:
             return self._ioc.lost
         self._ioc.calls += 1
@@ -315,7 +322,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         return None
 
     async def _checked(self, job: Callable[[], None]) -> None:
-        """Call a function in a thread; raise its exception."""
+        """Call a function in a thread, and raise the exception that `_call` returns."""
         error = await self._call(job)
         if error is not None:
             raise error
@@ -349,7 +356,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._homed, self._unknown = True, False
 
     def _confirm(self) -> None:
-        """Initialise the axis, which may have lost its set-up, because a client has stated the position."""
+        """Initialise the axis, which may have lost its set-up, after a client has stated the position."""
         self._positioner.initialise()
         self._look()
         self._problem, self._unknown = None, False
@@ -358,7 +365,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         self._speeds = self._shown = self._positioner.speeds()
 
     def _set_speeds(self, **changes: float) -> None:
-        """Set speeds. VBAS and VELO keep the requested values, for which clients wait."""
+        """Set speeds. VBAS and VELO keep the requested values, because clients wait until they read them."""
         speeds = self._speeds._replace(**changes)
         self._positioner.set_speeds(speeds, "seconds" in changes)
         self._speeds = speeds
@@ -369,7 +376,7 @@ class Motor(PVGroup):  # type: ignore[misc]
     async def _put(self, name: str, write: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
         """Execute the put of a client and return its status; log a rejection.
 
-        An exception here would be an ErrorResponse, and the threading client of caproto does not expect one.
+        An exception here would cause an ErrorResponse, which the threading client of caproto does not expect.
         """
         try:
             return await write(*arguments, **options)
@@ -426,7 +433,7 @@ class Motor(PVGroup):  # type: ignore[misc]
         await self._run(partial(self._home, forward), LVIO=0)
 
     async def _stop(self, value: Any = 1) -> None:
-        # After an error of the line, a motor may move although the record does not follow it.
+        # After an error of the line, a motor may be moving although its record does not follow the motion.
         self._next, self._positioner.stop_requested = None, True
         await self._checked(self._positioner.send_stop)
 
@@ -451,7 +458,7 @@ class Motor(PVGroup):  # type: ignore[misc]
             await self._go(value)
 
     async def _put_offset(self, value: float) -> None:
-        """Shift the positions; soft limits stay at their pulses."""
+        """Set the offset of the positions. In pulses, the soft limits do not change."""
         self._check_idle()
         shift = value - self._get("OFF")
         await self._set(OFF=value)
@@ -493,13 +500,14 @@ class Ioc:
     Args:
         motors: axis and initial values of each record, by its name.
         log: called with one line for each problem.
-        reopen: called in a thread to open the device again after the port was lost; None: it stays lost.
+        reopen: called in a thread to open the device again after the port was lost; with None,
+            the port stays lost.
 
     Attributes:
         threads: threads that use the device.
         closing: True if the threads should end.
         reported: last problem of the port that was logged.
-        lost: last error of the port after it was lost, None while it is open.
+        lost: last error of the port since it was lost; None while the port is open.
         calls: number of calls in threads that use the device.
     """
 
@@ -538,7 +546,10 @@ class Ioc:
                 motor.lose()
 
     async def _open_again(self) -> None:
-        """Try to open the lost port. Motors that still move are stopped, because no client follows them."""
+        """Try to open the lost port.
+
+        If it opens, motors that are still moving are stopped, because no client follows their motions.
+        """
         assert self._reopen is not None
         loop = asyncio.get_running_loop()
         try:
@@ -558,7 +569,7 @@ class Ioc:
         self._log(f"{device.link.name}: the port is open again: {state}; home, or set positions with SET")
 
     async def _update(self) -> None:
-        """Begin an attempt to open a lost port, if RETRY seconds have passed; publish all records."""
+        """If RETRY seconds have passed, begin an attempt to open a lost port. Publish all records."""
         if self._attempt is not None and self._attempt.done():
             done, self._attempt = self._attempt, None
             done.result()

@@ -2,8 +2,8 @@
 
 A package whose names are imported at their first use lists its imports twice: under `TYPE_CHECKING` for type
 checkers and editors, and as rows for this module. `tests/common/test_lazy.py` compares both lists with
-`__all__`. The modules of the package import each other, but not the package. Therefore, a name loads only the
-modules that it needs.
+`__all__`. The modules of the package import each other, but not the package. Therefore, the use of a name
+imports only the modules that it needs.
 
 After a public name is changed, the old name remains available for one minor version. For names in modules,
 `renamed` or the argument `old` of `lazy` provides the old name; for attributes, `Renamed` provides it. Type
@@ -51,7 +51,7 @@ def renamed(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
     """Return the function `__getattr__` for a module with old names.
 
     Args:
-        names: maps each old name to its new name.
+        names: new name of each old name.
     """
 
     def load(name: str) -> Any:
@@ -69,9 +69,10 @@ def lazy(
     """Return the functions `__getattr__` and `__dir__` for a package.
 
     Args:
-        rows: lines with the name of a module, relative to the package, and names in this module;
-            `PUBLIC=NAME` makes NAME public as PUBLIC. The names in the row of the module "." are modules.
-        old: maps each old name to its new name.
+        rows: lines that consist of the name of a module, relative to the package, and the names that it
+            defines. `PUBLIC=NAME` makes its name NAME available as PUBLIC. In the row of ".", the names are
+            modules of the package.
+        old: new name of each old name.
     """
     places, old = {}, old or {}
     for module, *names in map(str.split, rows.strip().splitlines()):

@@ -29,7 +29,7 @@ PARAMETERS = dict.fromkeys(("scale", *RAMP, "home-velocity"), "FLOAT")
 The value 0 selects the default: 1 for the scale, and the value of the set-up for each other parameter.
 """
 PERIOD = 0.02
-"""Pause after a cycle in s."""
+"""Duration of the wait at the end of a cycle in s."""
 
 
 class GroupEndedError(PpmcError):
@@ -40,9 +40,10 @@ FAULTS: tuple[type[PpmcError], ...] = (
     *(EndUnknown, LinkError, LimitReached, AlarmStop, StoppedByCommand),
     *(OutOfRange, OriginNotFound, CommandRefused, GroupEndedError, PpmcError),
 )
-"""Classes of errors.
+"""Classes of errors, by number.
 
-The `fault-code` of an error is the place, counted from 1, of the first class to which the error belongs.
+The pin `fault-code` is the position in this list, counted from 1, of the first class to which the error
+belongs.
 """
 
 
@@ -51,7 +52,10 @@ class AbandonedError(Exception):
 
 
 class Reading(NamedTuple):
-    """State of an axis; `busy` is `None` if only the motion object reports whether the axis moves."""
+    """State of an axis.
+
+    `busy` is `None` if the state does not contain whether the axis moves; the motion object reports this.
+    """
 
     position: int
     limit_cw: bool
@@ -96,7 +100,10 @@ class Pins:
         self._levels: dict[str, bool] = {}
 
     def create(self, names: Mapping[str, str], side: str) -> None:
-        """Create pins (`IN`, `OUT`) or parameters (`RW`) of these types."""
+        """Create pins (`side` is `IN` or `OUT`) or parameters (`RW`).
+
+        `names` maps their names to their types.
+        """
         make = self._component.newparam if side == "RW" else self._component.newpin
         for name, kind in names.items():
             make(self._prefix + name, *(getattr(self._types, f"HAL_{word}") for word in (kind, side)))
@@ -108,7 +115,7 @@ class Pins:
         self._component[self._prefix + name] = value
 
     def rose(self, name: str) -> bool:
-        """Return True if a pin has risen since the last call."""
+        """Return True if the pin `name` is True, and was False at the last call or was not read before."""
         before, self._levels[name] = self._levels.get(name, False), bool(self[name])
         return self._levels[name] and not before
 
@@ -159,7 +166,7 @@ class HalAxis:
         self.drive.prepare(*(abs(self.pins[name] * self.scale) for name in RAMP))
 
     def distance(self) -> int:
-        """Prepare a move to `position-cmd` and return its pulses."""
+        """Prepare a move to `position-cmd`; return the number of its pulses, with sign."""
         target = self.pins["position-cmd"] * self.scale
         if not math.isfinite(target):
             raise OutOfRange(f"position-cmd times scale, {target}, is not a finite number")
@@ -181,7 +188,7 @@ class HalAxis:
                 self.drive.axis.stop(wait=False)
 
     def adopt(self) -> None:
-        """Decelerate a motion that the library started for this axis, and poll it from now on."""
+        """Decelerate a motion that the library started for this axis, and poll this motion from now on."""
         motion = self.drive.axis.motion
         if motion is not None and not motion.over:
             self.motion, self.stopping = motion, False
@@ -203,14 +210,15 @@ class Controller:
     """All axes of a component; the caller repeats `cycle`.
 
     Args:
-        component: object with `newpin`, `newparam` and items, as of `hal`.
+        component: object with `newpin`, `newparam` and items, like a component of the module `hal`.
         types: the module `hal`, for its constants.
         report: function that prints a line about a fault.
         check: function that is called in each cycle, also during homing. It may raise an exception.
 
     Attributes:
         machine: open device, `None` after the port was lost.
-        reopen: True if the pin `reset` has risen since the port was lost.
+        reopen: True if the pin `reset` has risen since the port was lost. The caller then opens the port
+            again.
     """
 
     machine: Machine | None = None
@@ -233,7 +241,7 @@ class Controller:
         self._axes = {number: HalAxis(component, types, number) for number in numbers}
 
     def attach(self, machine: Machine) -> None:
-        """Use an open device, and clear the faults that the lost port has caused."""
+        """Use an open device, and clear the faults of all axes."""
         self.machine, self.reopen = machine, False
         for number, axis in self._axes.items():
             axis.drive, axis.fault = machine.drives[number], 0
@@ -300,7 +308,7 @@ class Controller:
         self._last_error = error
 
     def _attempt(self, axes: Sequence[HalAxis], call: Callable[[], object]) -> None:
-        """Call a function; an error is a fault of these axes, unless the port is lost (LinkError)."""
+        """Call a function; an error becomes a fault of these axes, but LinkError (port lost) is raised."""
         try:
             call()
         except PpmcError as error:
@@ -331,7 +339,7 @@ class Controller:
             self._end_group(f"axis {axis.number} of the group has ended early")
 
     def _start_group(self) -> None:
-        """Start the axes that are armed for a common start when all of them are at standstill."""
+        """Start the axes that are armed for a common start, as soon as all of them are at standstill."""
         self._waiting = self._common.rose("group-start") or (
             self._waiting and bool(self._common["group-start"])
         )

@@ -49,10 +49,10 @@ class Part:
     Attributes:
         address: port with `bits` address lines.
         parameters: parameters with their defaults.
-        inputs: by name, the width, and the level of all bits of an input without a pad.
-        outputs: by name, the width.
+        inputs: name of each input, with its width and the level of all its bits if it has no pad.
+        outputs: name of each output, with its width.
 
-    A width is a number of bits, or `*` and a number of bits per axis.
+    A width is text: a number of bits, or `*` followed by the number of bits per axis.
     """
 
     top: str
@@ -64,7 +64,7 @@ class Part:
     outputs: Mapping[str, str]
 
     def width(self, text: str, parameters: Mapping[str, Any]) -> int:
-        """Return the number of bits of a port with these parameters."""
+        """Return the number of bits of a port whose width is `text`, with these parameters."""
         return int(text[1:]) * int(parameters["AXES"]) if text.startswith("*") else int(text)
 
 
@@ -98,7 +98,7 @@ _BUILT_IN = re.compile(r"^//   (\w+) += (\S+)", re.M)
 
 
 def _plain(path: Path, expected: Mapping[str, Any]) -> None:
-    """Check the parameters of a file of plain Verilog. Raises SourcesError."""
+    """Check that a file of plain Verilog has the expected parameters. Raises SourcesError."""
     head = path.read_text(encoding="utf-8").partition("`default_nettype")[0]
     for name, value in _BUILT_IN.findall(head):
         has = re.sub(r"^\d+'[bd]", "", value)
@@ -110,7 +110,7 @@ def _plain(path: Path, expected: Mapping[str, Any]) -> None:
 
 
 def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapping[str, Any]) -> bool:
-    """Add the source files to the platform, each only once.
+    """Add the source files to the platform; a file that is already there is not added again.
 
     Returns:
         True if the parameters are fixed in the files (plain Verilog).
@@ -144,8 +144,8 @@ def add_sources(platform: Any, sources: Path | str, part: Part, parameters: Mapp
 class PpmcPart(LiteXModule):  # type: ignore[misc]
     """A part and its Wishbone bridge.
 
-    The module has `bus`, `size` in bytes, and the event `ev.finish` while `int_n` is low. The register map is
-    in docs/integration.md.
+    The module has the Wishbone interface `bus`, its `size` in bytes, and the event `ev.finish`, which is
+    active while `int_n` is low. The register map is in docs/integration.md.
 
     Args:
         platform: receives the sources.
@@ -223,7 +223,7 @@ class PpmcPart(LiteXModule):  # type: ignore[misc]
 
     @staticmethod
     def _pins(of: Part, pads: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-        """Return the ports of the instance, connected to pads or to idle levels."""
+        """Return the ports of a part as arguments of the instance, connected to pads or to idle levels."""
         found = {}
         named = {} if pads is None else {field[0]: getattr(pads, field[0]) for field in pads.layout}
         for name, (text, level) in of.inputs.items():
@@ -259,7 +259,7 @@ def add_part(
     Args:
         name: name of the module, of its region (NAME_BASE in generated/mem.h) and of its interrupt
             (NAME_INTERRUPT).
-        origin: address, not cached; without it LiteX selects one.
+        origin: base address, in a region that is not cached; `None` lets LiteX select one.
 
     Other arguments are those of `PpmcPart`.
 

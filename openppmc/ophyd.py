@@ -41,7 +41,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
         axis: number of the axis from 1 on, or the station.
         pulses_per_unit: pulses per `egu`; negative if the position decreases in direction CW.
         limits: soft limits in `egu`, (0, 0) for no limits. Limit switches of the machine also end a motion.
-        others: arguments of ophyd.
+        others: further arguments, which are passed to ophyd.
 
     Raises:
         OutOfRange: the axis does not exist, or a number is not finite.
@@ -68,8 +68,8 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
     def position(self) -> float:
         """Position of the axis in `egu`, read from the part.
 
-        If the port is lost, the value is the last known position. A part that was reset raises ProtocolError
-        once.
+        If the port is lost, the value is the last known position. If the part was reset, the first read
+        raises ProtocolError.
         """
         try:
             return self._ask()
@@ -79,7 +79,7 @@ class PpmcPositioner(SoftPositioner):  # type: ignore[misc]
             return float(self._position)
 
     def read(self) -> Any:
-        """Read the values as ophyd defines it; the port must be connected."""
+        """Read the values in the form that ophyd defines; the port must be connected."""
         self._ask()
         return super().read()
 

@@ -288,7 +288,7 @@ OWN = (
     *("name", "of", "number", "rules", "docs", "carrier", "line", "selftest"),
     *("demo", "bench", "soak", "gates", "crosses", "decode"),
 )
-"""Columns for which a row does not use the entries of the row in `of`."""
+"""Columns for which a variant does not use the entries of the part in `of`."""
 
 
 def _filled(row: Row) -> Row:

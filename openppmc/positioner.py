@@ -29,7 +29,7 @@ If n axes of a device move, the pause after each poll is this time divided by n.
 FREE = 0.01
 """Pause in seconds after each poll, so that other threads can use the port.
 
-Without the pause, a thread could get the lock again before the threads that wait for it.
+Without the pause, the same thread could get the lock again before threads that wait for the lock.
 """
 
 
@@ -50,7 +50,7 @@ _accesses: WeakKeyDictionary[Device, _Access] = WeakKeyDictionary()
 
 
 class Switches(NamedTuple):
-    """Hard limit switches in the direction of the position, and the origin switch; True = active."""
+    """Hard limit switches at the low and high end of the positions, and origin switch; True = active."""
 
     low: bool
     high: bool
@@ -125,7 +125,11 @@ class Positioner:
         return round((position - self.offset) * self.pulses_per_unit)
 
     def switches(self) -> Switches:
-        """Read the switches. EXT1 of a PMC006B4 is the limit backward, EXT2 forward."""
+        """Read the switches.
+
+        On a PMC006B4, EXT1 is the limit switch in direction backward (CCW), and EXT2 is the limit switch in
+        direction forward (CW).
+        """
         with self.lock:
             cw, ccw, origin = self._drive.switches()
         return Switches(ccw, cw, origin) if self.pulses_per_unit > 0 else Switches(cw, ccw, origin)
@@ -180,7 +184,7 @@ class Positioner:
             return self.axis.start_move(pulses)  # type: ignore[no-any-return]
 
     def leave_limit(self, position: float) -> None:
-        """Clear the flag of the EXT input of a PMC006B4 that a move to a position leaves.
+        """On a PMC006B4, clear the flag of the EXT input that a move to this position leaves.
 
         The limits of the other parts do not prevent such a move.
         """
@@ -221,7 +225,7 @@ class Positioner:
 
         The edge of the switch becomes pulse 0.
 
-        A PMC006B4 searches EXT2 or EXT1.
+        A PMC006B4 searches EXT2 in direction forward (CW), and EXT1 in direction backward (CCW).
 
         Args:
             report: called about ten times a second, as in `follow`.

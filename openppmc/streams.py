@@ -1,4 +1,4 @@
-"""Text on stdout and stderr with any encoding.
+"""Output of text to stdout and stderr, which may have any encoding.
 
 The streams may be closed or full, and the reader may end early.
 """
@@ -24,7 +24,7 @@ TERMINAL_CLOSED = 129
 NARROW = 80
 """Number of columns of a terminal below which a table that is too wide is printed as a list.
 
-On such a terminal, help is plain text.
+On a terminal with fewer columns, the help is plain text.
 """
 
 ASCII = {
@@ -38,9 +38,9 @@ ASCII = {
     "▶": ">", "▸": ">", "◂": "<", "✓": "ok", "✗": "x", "§": "section ", "ß": "ss", "ø": "o", "æ": "ae",
     "%": "\u066a",  # cp864 has only the Arabic percent sign
 }  # fmt: skip
-"""Replacement of characters that an encoding does not have.
+"""Replacements for characters that an encoding does not have.
 
-In addition, letters lose their accents.
+In addition to these replacements, letters lose their accents.
 """
 
 
@@ -60,7 +60,7 @@ class StdoutLost(SystemExit):
         reason = "closed" if error.errno == errno.EBADF else error.strerror or str(error)
         self.reason = "the reader has ended" if ended else reason
         self.motors = ""
-        """How moving motors were stopped; empty if no motor moved."""
+        """Text that states how moving motors were stopped; empty if no motor moved."""
 
     @property
     def line(self) -> str:
@@ -154,10 +154,10 @@ class _Stream(io.TextIOWrapper):
 
 
 class Ended:
-    """Object for the end of a block of `wrapped`.
+    """Object in which a block of `wrapped` stores its exit status.
 
     Attributes:
-        status: exit status, set by the block.
+        status: exit status; the block sets it.
     """
 
     status = 0

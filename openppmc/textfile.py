@@ -1,4 +1,4 @@
-"""Reader of text files in UTF-8 with or without a byte order mark, UTF-16, or Latin-1."""
+"""Reader of text files in UTF-8 (with or without a byte order mark), UTF-16, or Latin-1."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class NotTextError(ValueError):
 
 
 def encoding_of(head: bytes) -> str:
-    """Return the encoding that the first bytes of a file indicate; `utf-8` without a byte order mark."""
+    """Return the encoding that the first bytes of a file indicate; `utf-8` if they indicate no other one."""
     for mark, name in _MARKS:
         if head.startswith(mark):
             return name
@@ -61,7 +61,9 @@ def read_text(path: Path) -> str:
 
 
 def chunks(path: Path, size: int = 1 << 19) -> Iterator[bytes]:
-    """Yield a text file as bytes in UTF-8, or unchanged if the file has no byte order mark.
+    """Yield the content of a text file as bytes in UTF-8.
+
+    If `encoding_of` returns UTF-8 for the file, the bytes are not changed or checked.
 
     Raises:
         OSError: the file cannot be read.

@@ -1,8 +1,8 @@
 """Make the environment .venv: ``python -m scripts.env GROUP …`` installs these dependency groups.
 
 The groups are in pyproject.toml, the versions of all packages in requirements.lock. `make` starts this module
-when `missing` names a group. The module imports only the standard library, because no package is installed
-yet.
+if a group is not installed as required (function `missing`). The module imports only the standard library,
+because no package is installed yet.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ BIN = VENV / "bin"
 PYTHON = BIN / "python"
 LOCK = ROOT / "requirements.lock"
 WAIT_S = 1800
-"""Seconds to wait for another `make` that installs packages; a slow connection needs minutes."""
+"""Longest wait in s for another `make` that installs packages; with a slow connection, it takes minutes."""
 
 # A shell starts the Python in the folder of the script, because a #! line cannot name a path with a space.
 COMMAND = """#!/bin/sh
@@ -74,7 +74,7 @@ def missing(groups: Iterable[str]) -> list[str]:
 
 
 class Progress:
-    """Progress display: one line that is rewritten on a terminal; elsewhere one line every ten packages."""
+    """Progress display: on a terminal, one line that is rewritten; elsewhere, one line every ten packages."""
 
     def __init__(self, label: str) -> None:
         self.label, self.begin = label, time.monotonic()
@@ -130,7 +130,7 @@ def make_venv() -> None:
             text = f".venv: broken and not removable ({error.strerror}); remove it, then repeat"
             raise SetupError(text) from None
     progress.show("making .venv")
-    # This module may run with the Python of the broken .venv, a link to the Python that created .venv.
+    # This module may run with the Python of the broken .venv, which is a link to the Python that created it.
     python = os.path.realpath(sys.executable)
     made = subprocess.run([python, "-m", "venv", VENV], capture_output=True, text=True, check=False)
     if made.returncode:

@@ -35,7 +35,7 @@ def raw(content: str | bytes) -> bytes:
 
 
 def update(target: str, files: Mapping[Path, str | bytes], check: bool, unused: Iterable[Path] = ()) -> int:
-    """Write the files of `make <target>` and remove the unused files; return the exit code.
+    """Write the files of `make <target>` and remove the files `unused`; return the exit code.
 
     With `check`, nothing is changed, and the exit code is 1 if a file is outdated.
     """

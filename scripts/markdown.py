@@ -9,8 +9,8 @@ def table(heads: Sequence[object], rows: Iterable[Sequence[object]], left: int |
     """Return a table as Markdown text.
 
     Args:
-        left: number of left-aligned columns at the beginning; all others are right-aligned. None selects a
-            separator row without spaces and without alignment.
+        left: number of left-aligned columns at the beginning; all others are right-aligned. With None, the
+            separator row has no spaces and no alignment.
     """
     head, *lines = [f"| {' | '.join(map(str, row))} |" for row in (heads, *rows)]
     if left is None:

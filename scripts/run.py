@@ -1,6 +1,6 @@
 """Print the shell text of a make target: ``python -m scripts.run GOAL GOAL … NAME=VALUE …``.
 
-The text is that of the first goal; the other words are all goals and variables of this `make`. If a word is
+The text belongs to the first goal; the other words are all goals and variables of this `make`. If a word is
 wrong, only the first fault is printed, as a line that begins with "error:". The module imports only the
 standard library.
 """
@@ -107,8 +107,8 @@ class Goal:
 
 
 def check_machine(python: str | None) -> None:
-    """Raise WrongError if the folder, the tools or the Python cannot be used to make the environment."""
-    # Only these characters are not permitted: they end a name in PATH or in the scripts of pip.
+    """Raise WrongError if the environment cannot be made in this folder with these tools and this Python."""
+    # The path must not contain these characters, which end a name in PATH or in the scripts of pip.
     if re.search(r"[:\"$`\\\x00-\x1f\x7f]", str(ROOT)):
         shown = re.sub(r"[\x00-\x1f\x7f]", "?", str(ROOT))
         raise WrongError(f"the project's folder must not have : \" $ ` or \\ in its path: {shown}")
@@ -133,7 +133,7 @@ def check_machine(python: str | None) -> None:
 
 
 def plan(words: list[str]) -> str:
-    """Return the shell text of the goal in the first word; raise WrongError for a fault in any word."""
+    """Return the shell text of the first word, a goal; raise WrongError for a fault in any word."""
     given = dict(word.split("=", 1) for word in words if "=" in word)
     goals = [Goal(word, given) for word in words if "=" not in word]
     known = set().union(*(goal.known for goal in goals))

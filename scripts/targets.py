@@ -8,8 +8,9 @@ there is the command of the target: shell text with the following marks, which s
     [… {NAME} …]         only if the variable is given; for a flag: only if it is 1, and {NAME} is removed
     {py} and others      abbreviations in SHORT
 
-A row with a variable in its name (`prove NIGHT=1`) applies at this value, with `NAME=` at any value. `make`
-reads this table before the environment exists, so this module needs only the standard library.
+A row with a variable in its name (`prove NIGHT=1`) applies if the variable has this value; with `NAME=`, if
+it has any value. `make` reads this table before the environment exists, so this module needs only the
+standard library.
 """
 
 from __future__ import annotations
@@ -202,7 +203,7 @@ OTHER_VALUES = {
     "trace": ("PART", "part folders"),
     "test-verilog": ("SIM", "icarus own cocotb"),
 }
-"""For a target, one of its variables, with the values that this target permits."""
+"""Variables whose values differ from VARIABLES for one target: target, variable, permitted values."""
 
 FORMS = {
     "any": ("(?s:.*)", ""),
@@ -231,7 +232,7 @@ class Target:
 
     @property
     def defaults(self) -> dict[str, str]:
-        """Each variable of the command with its default, which may be empty."""
+        """Variables of the command, with their defaults, which may be empty."""
         found: dict[str, str] = {}
         for name, default in re.findall(r"\{([A-Z_]+)(?:/or|:([^}]*))?\}", self.command):
             found[name] = found.get(name) or default
@@ -285,7 +286,7 @@ def boards() -> dict[str, dict[str, list[str]]]:
 
 
 def limits(name: str, part: str, default: str) -> list[int]:
-    """Return the range of a variable; that of a parameter is in the header of the part's top."""
+    """Return the range of a variable; for a parameter, it is in the header of the part's top."""
     if part in parts.PARTS:
         figure = r"(\d+(?: \d{3})*(?:e\d+)?)"
         for path in ROOT.glob(f"rtl/*/{parts.PARTS[part].top}.sv"):
@@ -308,7 +309,7 @@ def part_names(columns: list[str]) -> list[str]:
 
 
 def fault(name: str, values: Mapping[str, str], target: str) -> str:
-    """Return a text about the fault in the value of a variable; an empty text if the value is valid.
+    """Return what is wrong with the value of a variable, as text; empty if the value is valid.
 
     Args:
         values: values of all variables.

@@ -20,8 +20,9 @@ class Mismatch:
     Attributes:
         t: clock edge of the difference.
         signal: output that differs there.
-        expected, actual: next change (t, value) of the model and of the other side; `None` if there is none.
-        differing: all outputs that differ, in order of time.
+        expected, actual: first change (t, value) of `signal` that differs: in the model, and on the other
+        side. `None` means that this side has no further change.
+        differing: all outputs that differ, in order of their first difference.
     """
 
     t: int
@@ -37,7 +38,7 @@ class Comparison:
 
     Attributes:
         pins: pins of the part.
-        seen: name of the source whose edges were compared with those of the model.
+        seen: name of the source whose edges were compared with the edges of the model.
     """
 
     recording: Recording
@@ -112,9 +113,9 @@ def _first_difference(expected: Waves, actual: Waves) -> Mismatch | None:
 
 
 def differing_spans(comparison: Comparison, name: str) -> list[tuple[int, int]]:
-    """Return the difference of one output as changes (t, level).
+    """Return the times at which the two sides differ in one output, as changes (t, level).
 
-    At level 1, the two sides differ.
+    While the level is 1, the two sides differ.
     """
     expected, actual = comparison.expected[name], comparison.actual[name]
     initial, spans, state = comparison.initial[name], [], 0

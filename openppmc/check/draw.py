@@ -26,7 +26,8 @@ def window(comparison: Comparison) -> tuple[int, int]:
     after = [t for t in times if t > m.t][:5]
     ends = [side[0] for side in (m.expected, m.actual) if side is not None]
     start, stop = min([m.t - 12, *before]), max([m.t + 12, *after, *ends])
-    # In a wide window the difference would be invisible, so the window ends at most 4000 cycles from it.
+    # In a wide window the difference would be invisible, so the window is limited to 4000 cycles before it
+    # and, except for the two differing edges, 4000 cycles after it.
     start, stop = max(start, m.t - 4000), min(stop, max(m.t + 4000, max(ends) + 12))
     margin = max(2, (stop - start) // 20)
     return start - margin, stop + margin
@@ -36,7 +37,7 @@ def draw_png(comparison: Comparison, path: Path) -> None:
     """Draw both waveforms of every active output near the first difference.
 
     The accesses of the host are above the waveforms. The left side is a wide view. If the difference is only
-    a few pixels wide in this view, the right side shows an enlarged view of it.
+    a few pixels wide there, the right side shows it enlarged.
 
     Raises:
         MissingExtraError: matplotlib is not installed.
@@ -143,7 +144,7 @@ def _title(figure: Any, comparison: Comparison) -> None:
 def _outputs_to_draw(comparison: Comparison, low: int, high: int) -> list[str]:
     """Return the signals to draw.
 
-    The differing signals are first, in order of time, followed by those with an edge in the window.
+    The signals that differ are first, in order of time, followed by other signals with an edge in the window.
     """
     m = comparison.mismatch
     assert m is not None

@@ -35,7 +35,7 @@ class Access(NamedTuple):
     Attributes:
         t: edge 0 of P104-BUS-05/06: for a read, the first edge with RS true; for a write, the first edge at
             which WS is false again.
-        kind: "read" or "write"; on a bus with more than two registers, the text for the report.
+        kind: "read" or "write"; on a bus with more than two registers, the text that a report contains.
     """
 
     t: int
@@ -87,7 +87,7 @@ class Recording:
 def by_signal(edges: Iterable[Edge], initial: Mapping[str, int]) -> dict[str, list[tuple[int, int]]]:
     """Return the changes (t, value) of each signal in `initial`.
 
-    Of several changes at one edge the last one counts. Repeated levels are omitted.
+    If a signal has several changes at one edge, only the last one is used. Repeated levels are omitted.
     """
     lists: dict[str, list[tuple[int, int]]] = {name: [] for name in initial}
     for t, signal, value in edges:
@@ -129,7 +129,7 @@ def bit_changes(changes: list[tuple[int, int]], place: int, initial: int) -> lis
 def steps(changes: list[tuple[int, int]]) -> list[int]:
     """Return the edges at which the phases (positive logic) change to another pattern.
 
-    Off-times of a chopper do not count.
+    Off-times of a chopper are not changes of the pattern.
     """
     found, last = [], 0
     for t, pattern in changes:

@@ -5,8 +5,8 @@
     comparison.mismatch     # None, or the first difference
 
 A time is the index of a rising clock edge; 0 is the first edge after the reset. Edge t is the first edge that
-samples an input change at t. An output change at t occurs at edge t (`model.chip`). A recording that begins
-in a reset contains the changes of `rst_n` to 0 and to 1.
+samples an input change at t. An output change at t occurs immediately after edge t (`model.chip`). A
+recording that begins in a reset contains the changes of `rst_n` to 0 and to 1.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def compare_recording(
         initial: outputs to compare, with their levels before edge 0; by default all outputs of the model with
             their levels in reset.
         seen: source of the recording, for reports and pictures.
-        follower: model that has already run with this recording.
+        follower: model that has already run with the inputs of this recording; `None` to create one.
         pins: pins of the part for reports; by default those of the model.
     """
     follower = follower or ModelRunner(new_model(recording.part, recording.params))

@@ -1,4 +1,4 @@
-"""A comparison as a VCD file: both sides, their differences, and the pins."""
+"""A comparison as a VCD file: the outputs of both sides, their differences, and the pins."""
 
 from __future__ import annotations
 

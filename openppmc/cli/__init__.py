@@ -5,10 +5,10 @@ ended.
 
 `app` contains the table of commands; a command is imported when it is called. `common` contains the commands
 that the parts share, and depends on no part. The folder of a part contains its commands if it is on a serial
-line, and the objects for two columns of `openppmc.parts`: `presenter` defines the output, the forecasts and
-the additional functions of a part; without it, a part uses that of the PPMC-104. `script_commands` are
-additional commands of the part in script files. A part that is accessed through the UART bridge and has the
-ramp and the registers of the PPMC-104 requires no code in this package.
+line, and the objects for two columns of `openppmc.parts`. `presenter` defines the output, the forecasts and
+the additional functions of a part; a part without this object uses the presenter of the PPMC-104.
+`script_commands` defines additional commands of the part in script files. This package needs no code for a
+part that is accessed through the UART bridge and has the ramp and the registers of the PPMC-104.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ def main(arguments: list[str] | None = None) -> int:
     """
     with streams.wrapped() as ended:
         try:
-            # Import here, so that a signal during the import also prints only one line.
+            # Import here, so that the program prints only one line also if a signal arrives during the
+            # import.
             import typer
 
             from ..host.stopping import Signalled, arrived, handled, name_of, print_line

@@ -13,7 +13,7 @@ from .common.presenter import RampPresenter
 
 
 class BankPresenter(RampPresenter[PpmcBank]):
-    """Presenter of a bank: all axes in one snapshot, a row for each; moves start in the same cycle."""
+    """Presenter of a bank: prints a snapshot with a row for each axis, and starts moves in the same cycle."""
 
     wide = True
 

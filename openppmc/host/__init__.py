@@ -9,9 +9,9 @@
 
 Each function that the parts share is in a module of its own, and each part has a module or folder. A command
 passes through `part` → `axis` → `moves` → `motion` → `link` → `script` → `frames` → `port`; each of these
-modules imports only those after it. `port` performs the I/O; `model_port` and `line_port` contain the boards
-that need no hardware. A module with "Pure" in its first line performs no I/O and imports no module that
-performs I/O.
+modules imports only modules that follow it in this list. `port` performs the I/O; `model_port` and
+`line_port` contain the boards that need no hardware. A module with "Pure" in its first line performs no I/O
+and imports no module that performs I/O.
 """
 
 from typing import TYPE_CHECKING

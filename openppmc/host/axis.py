@@ -31,7 +31,10 @@ OnProgress = Callable[[Progress], None]
 
 EXCITATION_OFF = 0xC0
 OPERATION_BITS = 7
-"""Bits of the finish status with the last operation code; 0 until the first operation after a reset."""
+"""Bits of the finish status that contain the code of the last operation.
+
+They are 0 from a reset to the first operation.
+"""
 CW, CCW = 0, 1
 STOP_NOW, STOP_SLOWLY = 0x40, 0x41
 
@@ -68,14 +71,14 @@ class Axis(Checked):
 
     Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second. Pulses are signed, CW positive. Any
     method may raise a LinkError; commands may raise the CommandRefused errors of the part. The class of each
-    part defines how the straps are set, how the switches are read, and which further functions the part has.
+    part defines how the straps are set, how the switches are read, and the additional functions of the part.
 
     Attributes:
         setup: set-up of the last initialisation by this object, `None` before the first.
         number: number of the axis.
-        _code_bits: bits that are set in the command codes of this axis.
+        _code_bits: bits that select this axis in command codes.
         _busy_mask: BUSY bit of this axis in the status register.
-        _zero_mask: bits of the status register that read as 0.
+        _zero_mask: bits of the status register that always read as 0.
     """
 
     kind: RateCapabilities
@@ -108,7 +111,7 @@ class Axis(Checked):
         return f"axis {self.number}: " if self.kind.axes > 1 else ""
 
     def _annotate(self, end: MotionResult) -> MotionResult:
-        """Return the result with the message prefix and the alarm name of this axis."""
+        """Return the result `end` with the message prefix and the alarm name of this axis."""
         return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ initialisation
@@ -128,7 +131,7 @@ class Axis(Checked):
     ) -> speeds.Setup:
         """Set speeds, ramp and motor of this axis; return the set-up with the speeds that are reached.
 
-        The docstring of each driver states the limits of the part, and the settings that stay unchanged until
+        The docstring of each driver states the limits of the part, and which settings cannot be changed until
         `reset`.
 
         Args:
@@ -139,10 +142,10 @@ class Axis(Checked):
             half_step: half steps instead of full steps.
             positive_logic: True if a high level switches a coil on. This is the default if the part supports
                 both.
-            chop: chop the coil currents while the motor is stopped.
+            chop: True to chop the coil currents while the motor is stopped.
             base_clock: one of the base clocks of the part in Hz; `None` selects one that reaches start_pps.
             external_clock: frequency of the external clock at the clock pin in Hz.
-            long_intervals: set vsel low, which makes each interval 7.5 us longer.
+            long_intervals: True to set vsel low, which makes each interval 7.5 us longer.
 
         Raises:
             OutOfRange: an argument is out of range, or the part does not support it.
@@ -168,7 +171,7 @@ class Axis(Checked):
     # ------------------------------------------------------------------ implemented by each part
 
     def _strap_script(self, clock: speeds.BaseClock | None) -> Script:
-        """Return the script that sets the strap pins for this base clock; `None` accepts any level."""
+        """Return the script that sets the strap pins for this base clock; `None`: any level is accepted."""
         raise NotImplementedError
 
     def inputs(self) -> Switches:
@@ -191,9 +194,9 @@ class Axis(Checked):
         return self.setup.start.reached
 
     def _rate(self, pps: speeds.Number | None) -> tuple[speeds.BaseClock, int]:
-        """Return base clock and rate byte of a constant speed.
+        """Return (base clock, rate byte) of a constant speed.
 
-        The base clock may be an internal clock other than that of the ramp.
+        The base clock may differ from the base clock of the ramp if both are internal clocks.
         """
         if pps is None:
             pps = self._default_speed
@@ -212,7 +215,7 @@ class Axis(Checked):
     def remaining(self) -> int:
         """Return the remaining-pulse register of the last motion. The call is not allowed during a motion.
 
-        The register holds the number of remaining pulses minus 1, or 0.
+        The register holds the number of remaining pulses minus 1; if no pulse remains, it holds 0.
         """
         return self.link.execute(Script().call(self._read_codes.remaining | self._code_bits).get(3)).number(1)
 
@@ -233,8 +236,8 @@ class Axis(Checked):
         """Check a value of the position counter, and return it.
 
         Raises:
-            ProtocolError: a restart of the board has set the counter to 0. The driver detects this because
-                the finish status indicates no motion since the reset.
+            ProtocolError: a restart of the board has set the counter to 0. The driver detects the restart
+                because the finish status indicates no motion since the reset.
         """
         known, self._known_count = self._known_count, count
         motion = self._motion
@@ -308,7 +311,7 @@ class Axis(Checked):
         self._known_count = 0
 
     def _at_rest(self, script: Script) -> None:
-        """Execute a script only if BUSY = 0. The bridge checks this condition."""
+        """Execute a script on condition that BUSY = 0; the bridge checks this before the first operation."""
         answer = self.link.attempt(
             Script().timeout(0).wait(1, self._busy_mask, 0).timeout(250).extend(script)
         )
@@ -328,7 +331,8 @@ class Axis(Checked):
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        A rejection because the motion is already decelerating or has ended is ignored.
+        If the part rejects the stop because the motion is already decelerating or has ended, the call is not
+        an error.
         """
         try:
             self._send_stop(now)
@@ -342,7 +346,7 @@ class Axis(Checked):
 
         Args:
             pulses: 1 to 16 777 216 in either direction.
-            pulse_only: output pulses, but keep the phases unchanged.
+            pulse_only: True to output pulses without changing the phases.
         """
         return self._start_motion(self._move_request(pulses, pulse_only=pulse_only))
 
@@ -406,7 +410,7 @@ class Axis(Checked):
         """Stop with a ramp; return the result, or `None` if wait is False.
 
         A motion at constant speed stops immediately. If the motor is already decelerating or has just
-        stopped, this is no error.
+        stopped, the call is not an error.
 
         Raises:
             NothingToStop: the motor was already stopped.
@@ -457,15 +461,16 @@ class Axis(Checked):
         """Move by each number of pulses in order, and yield the result of each move.
 
         One frame contains several moves, so short moves need much less time than with `move`. The iteration
-        starts the moves. Up to 16 numbers are read ahead, and moves may have ended before their results are
-        yielded. A move that does not end as requested is the last one.
+        starts the moves. Up to 16 numbers are taken from `pulses` in advance, and a move may have ended
+        before its result is yielded. A move that does not end as requested is the last one.
 
         Args:
             pps: constant speed, `None` for moves with ramps.
 
         Raises:
             LimitReached, AlarmStop, StoppedByCommand: a move ended before all pulses were output.
-            OutOfRange: a number is out of range. Earlier moves in the same frame do not start either.
+            OutOfRange: a number is out of range. Earlier moves that belong to the same frame are not started
+                either.
         """
         from .moves import AHEAD, execute_moves, run_moves  # only this method needs the module
 
@@ -510,7 +515,7 @@ class Axis(Checked):
         return self._motion_started(request, answer.number(2, signed=True))
 
     def _start_script(self, request: MotionRequest) -> Script:
-        """Return the script that precedes the command of a motion.
+        """Return the part of the script that precedes the command of a motion.
 
         The third value of its answer is the position counter.
         """
@@ -518,7 +523,7 @@ class Axis(Checked):
         return self._add_position_read(script.extend(self._strap_script(self._clock_for(request))))
 
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
-        """Return the motion of a start that a switch has prevented, or raise the rejection."""
+        """Return a motion without pulses if a switch has prevented the start; else raise the rejection."""
         raise refused
 
     def _motion_started(self, request: MotionRequest, begin: int) -> Motion:

@@ -27,7 +27,7 @@ PHASES = "phase outputs"
 OWN_STOP = "a separate deceleration"
 CURVES = "ramps of other shapes"
 OWN_SETTINGS = "settings instead of a set-up"
-"""Names of capabilities that not all parts have."""
+"""Capabilities that not all parts have, as text."""
 
 
 @dataclass(frozen=True)
@@ -92,10 +92,11 @@ class Capabilities:
     Attributes:
         row: row of the part in the table of parts.
         axes: number of axes.
-        has: names of capabilities (see above).
+        has: capabilities that this part has (see above).
         outputs: highest value of the auxiliary outputs; 0 if the part has no such outputs.
         alarm: name of the alarm input, and the advice in the message about an alarm.
-        origin_between: True if the origin is between the slow-down limits, and a search ends at them.
+        origin_between: True if the origin is between the two slow-down limits. A search that reaches a
+        slow-down limit then ends there.
         usual_ramp: default length of a ramp in pulses.
     """
 
@@ -177,7 +178,7 @@ class RateCapabilities(Capabilities):
     """Capabilities of a part with rate bytes; see `Capabilities`.
 
     Attributes:
-        lengths: shortest and longest ramp in pulses.
+        lengths: smallest and largest number of ramp pulses.
         least_rate: lowest rate byte that is used with an internal base clock.
         rate_gap: smallest difference of start rate and high rate.
     """

@@ -17,7 +17,7 @@ _FIRST, _WRITE, _OWN = 0x80, 0x40, 0x20
 _INFO_BYTES, _PINS = 15, 15
 _RELEASED = 0x80
 ANSWER_SECONDS = 0.3
-"""Longest time in s from a request to its answer, with the delays of USB adapters and busy computers."""
+"""Longest time in s from a request to its answer, including the delays of USB adapters and busy computers."""
 POLL_SECONDS = 0.005
 """Time in s between two reads of the level of `int_n` while a caller waits for an event."""
 
@@ -73,7 +73,7 @@ class CharBus:
         self._control = byte
 
     def _store(self, head: int, byte: int) -> None:
-        """Write a byte; raise ProtocolError if the answer is not this byte."""
+        """Send `head` and a byte to write; raise ProtocolError if the answer is not this byte."""
         if (got := self._ask(bytes([head | byte >> 7, byte & 0x7F]))) != byte:
             raise ProtocolError(
                 f"{self._line.name}: the board received 0x{got:02X} instead of 0x{byte:02X}: check the cable"
@@ -82,7 +82,7 @@ class CharBus:
     def _ask(self, request: bytes) -> int:
         """Send a request and return the character of its answer. Raises NoAnswer."""
         while self._line.read(0):
-            pass  # late answers to requests that have ended with NoAnswer
+            pass  # discard late answers to requests that have ended with NoAnswer
         self._line.write(request)
         end = self._line.clock() + ANSWER_SECONDS
         while not (answer := self._line.read(max(0.0, end - self._line.clock()))):
@@ -143,8 +143,8 @@ class CharPort:
 
     def write(self, data: bytes) -> None:
         self._waiting += self._bridge.receive(data)
-        # A script may have set int_n high and the part low again, between two reads of the level. So a low
-        # level after a script counts as a new falling edge.
+        # Between two reads of the level of int_n, a script may have set int_n high, and the part may have set
+        # it low again. Therefore, a low level after a script is treated as a new falling edge.
         self._level = 1
 
     def set_baud(self, baud: int) -> None:

@@ -33,7 +33,7 @@ Number: TypeAlias = int | float | Fraction
 
 
 def exact(value: Any, what: str) -> Fraction:
-    """Return a finite real number of any type as a fraction.
+    """Return a finite real number, which may have any numeric type, as a fraction.
 
     Raises:
         OutOfRange: the value is not a finite number; also for text, bool and `None`.
@@ -48,7 +48,7 @@ def exact(value: Any, what: str) -> Fraction:
 
 
 def whole(value: Any, what: str) -> int:
-    """Return an integer of any type, also a float without a fraction.
+    """Return a whole number as an integer; it may have any numeric type, also float.
 
     Raises:
         OutOfRange: the value is not a whole number; also for text, bool and `None`.
@@ -83,8 +83,8 @@ def flag(value: Any, what: str) -> bool:
     """Return a flag given as True, False, 1 or 0.
 
     Raises:
-        OutOfRange: any other value, such as text, `None` or another number, although Python accepts it as a
-            flag.
+        OutOfRange: the value is anything else, such as text, `None` or another number, although Python
+            accepts such values as flags.
     """
     try:
         if value in (False, True):
@@ -111,7 +111,7 @@ def _is_index(value: Any) -> bool:
 
 
 def _usual(value: Any, what: str) -> Number:
-    """Return a number unchanged if the package can calculate with its type, else return it as a fraction."""
+    """Return a number unchanged if the package can calculate with its type, otherwise as a fraction."""
     number = exact(value, what)
     return value if isinstance(value, int | float | Fraction) else number
 
@@ -176,7 +176,7 @@ class CheckedMethod:
         return self.function(instance, *values, **words)
 
     def checked(self, values: Sequence[Any], words: Mapping[str, Any]) -> tuple[Any, Any]:
-        """Return the arguments as the function receives them. Raises OutOfRange."""
+        """Check the arguments; return them in the form that the function receives. Raises OutOfRange."""
         if self.kinds:
             known = [self._one(name, value) for name, value in zip(self._names, values, strict=False)]
             values = (*known, *values[len(known) :])
@@ -191,7 +191,7 @@ class CheckedMethod:
 def _of_class(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return a class method that checks its arguments.
 
-    The result is a function, because Python 3.10 binds only functions to the class.
+    The result is a plain function, because Python 3.10 binds nothing else to the class.
     """
     entry = CheckedMethod(function)
 
@@ -207,9 +207,9 @@ def _value(bound: BoundMethod, *others: object) -> Any:
 
 
 class BoundMethod:  # noqa: D101 - help() shows the docstring of the function
-    # Method of an object. Its truth value, equality and hash are those of a Python method. If it is used in
-    # arithmetic, if it is compared with a number, or if any other attribute is read, it raises an error,
-    # because the parentheses of the call are missing. Its help and its names are those of the function.
+    # Method of an object. Truth value, equality, hash, help and names are the same as for a Python method.
+    # Arithmetic, a comparison with a number, and the read of any other attribute raise an error, because the
+    # parentheses of the call are missing.
 
     def __init__(self, entry: CheckedMethod, instance: object) -> None:
         self._entry, self.__self__ = entry, instance

@@ -2,9 +2,8 @@
 
 The exceptions for the ends of motions are in `motion_result`.
 
-Each message states what is wrong and what to do. The name of an exception is the event, as in `except
-LimitReached`; only the common base class ends in Error. An exception that only one part raises is in the
-module or folder of that part.
+Each message states what is wrong and what to do. The name of an exception states the event, as in `except
+LimitReached`. An exception that only one part raises is in the module or folder of that part.
 """
 
 # ruff: noqa: N818
@@ -31,7 +30,7 @@ class NotCalledError(PpmcError, TypeError, AttributeError):
 
 
 class Timeout(PpmcError, TimeoutError):
-    """A wait exceeded the time limit of the caller."""
+    """A wait exceeded the time limit that the caller has set."""
 
 
 # ---------------------------------------------------------------------- port and line
@@ -74,8 +73,7 @@ class CommandRefused(PpmcError):
         status: status byte of the part.
 
     Attributes:
-        number: error number in the numbering of PPMC-104 and STMC; the PPMC-2104 numbers its errors
-            differently.
+        number: error number of the PPMC-104 and the STMC; the numbers of the PPMC-2104 differ.
     """
 
     number: int
@@ -89,7 +87,7 @@ class CommandRefused(PpmcError):
 class NothingToStop(CommandRefused):
     """Error 0 (PPMC-2104: 6): a stop command while the motor is stopped.
 
-    The part also reports it for an undefined code, but the driver sends only defined codes.
+    The part also reports this error for an undefined code, but the driver sends only defined codes.
     """
 
     number = Error.UNDEFINED

@@ -2,7 +2,7 @@
 
 See docs/uart_bridge.md.
 
-A session has at most one outstanding request. Its line may lose, corrupt or repeat bytes. This module
+A session has at most one outstanding request. The line may lose, corrupt or repeat bytes. This module
 performs no I/O and reads no clock: the caller passes the time in seconds (any origin, never decreasing),
 sends the bytes that the methods return, and passes the bytes that arrive. A payload is the content between
 the flags without the CRC: SEQ and the bytes that follow it.
@@ -29,7 +29,7 @@ The content consists of SEQ, RESULT, POS, LAST, 256 data bytes and CRC.
 
 
 class Fault(IntEnum):
-    """Error of a frame; the numbers are those of the NAK messages of the bridge (UB-FRM-06)."""
+    """Error of a frame; its number is the same as in the NAK messages of the bridge (UB-FRM-06)."""
 
     FRAMING = 1
     CRC = 2
@@ -154,8 +154,8 @@ WAKE_UP = b"\x00\x00\x7d\x7e"
 """Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
 At any rate, and within any frame, they return the bridge to the idle state. 7D 7E ends a frame as invalid.
-With 7E alone, the bridge would execute a request that lacks only its last flag: 00 00 do not change its CRC
-register, which is 0.
+With 7E alone, the bridge would execute a request that lacks only its last flag: at that point, its CRC
+register is 0, and 00 00 do not change it.
 """
 
 
@@ -193,8 +193,8 @@ class Session:
 
     Args:
         attempts: largest number of times that a request is sent.
-        grace: seconds from a NAK to the repetition of the request. If noise before the request caused the
-            NAK, the answer arrives within this time, and no repetition is necessary.
+        grace: time in s from a NAK to the repetition of the request. The NAK may have been caused by noise
+            before the request; then the answer arrives within this time, and no repetition is necessary.
     """
 
     def __init__(self, attempts: int = 4, grace: float = 0.05) -> None:
@@ -240,7 +240,8 @@ class Session:
         """
         if self.busy:
             raise RuntimeError("a request is outstanding")
-        # If the CRC ended with 00, the frame would also be valid without this 00, or with two of them.
+        # A CRC that ends with 00 is avoided: the frame would also be valid without this 00, or with two of
+        # them.
         while not crc16(bytes([self._next_seq]) + script) & 0xFF:
             self._next_seq = self._following_seq()
         line = encode(bytes([self._next_seq]) + script, REQUEST_LIMIT)
@@ -259,7 +260,7 @@ class Session:
         return self._next_seq % LAST_SEQ + 1
 
     def repeat(self, now: float) -> bytes:
-        """Return the line bytes of the last request again. Called if its answer does not match it."""
+        """Return the line bytes of the last request again, after an answer that does not match it."""
         line = self._line
         self._request, self._sent = line, self._sent + 1
         self.repeats += 1
@@ -280,7 +281,7 @@ class Session:
         return answer
 
     def tick(self, now: float) -> bytes:
-        """Return the line bytes of the request if its deadline has passed, else no bytes.
+        """Return the line bytes of the outstanding request if its deadline has passed, else no bytes.
 
         Raises RetriesExhausted after the last attempt.
         """

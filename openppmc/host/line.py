@@ -34,7 +34,7 @@ class StationNotResponding(NoAnswer):
 
 
 class CorruptReply(NoAnswer):
-    """Bytes were received, but no complete reply.
+    """Bytes were received, but they contain no valid reply.
 
     The cause is noise, a wrong speed, or two stations with one address.
     """
@@ -45,7 +45,7 @@ class DuplicateAddress(LinkError):
 
 
 class LineEcho(LinkError):
-    """The master receives its own bytes, but was not configured for it."""
+    """The master receives its own bytes, although it is not configured for an echo."""
 
 
 class LostReply(LinkError):
@@ -58,8 +58,8 @@ def unanswered(
     """Return the exception for a station after all attempts have failed.
 
     Args:
-        check: advice to the user if no bytes were received.
-        others: text about possible causes of corrupt replies.
+        check: advice to the user for the case that no bytes were received.
+        others: possible causes of corrupt replies, as text.
     """
     if not any(miss.received for miss in misses):
         if len(misses) < attempts:
@@ -84,7 +84,7 @@ class LineMotion(AnyMotion, Protocol):
     def result_error(self) -> EndUnknown | None:
         """EndUnknown error if the part does not confirm how the motion ended.
 
-        The value is `None` while the motion is running, and if the part confirms how the motion ended.
+        The value is `None` while the motion is running, and also if the part has confirmed how it ended.
         """
 
     @property
@@ -113,7 +113,8 @@ def wait_all(
 
     Args:
         timeout: longest wait for all motions together in s, `None` for no limit.
-        progress: called about ten times a second with the progress. The pulses of several motions are added.
+        progress: called about ten times a second with the common progress of all motions, in which their
+            pulses are added.
 
     Raises:
         Timeout: the time limit is exceeded; the running motions continue.
@@ -179,7 +180,7 @@ class ReplyReceiver(Protocol[Answer]):
     def feed(self, byte: int) -> Answer | Fault | None:
         """Process a byte; return the reply if this byte completes it.
 
-        The call returns a Fault if the bytes cannot become a reply any more.
+        The call returns a Fault if no further byte can make the received bytes a reply.
         """
 
 
@@ -207,13 +208,13 @@ class Master(Generic[Answer]):
 
     @staticmethod
     def check_patience(patience: float) -> None:
-        """Raise OutOfRange unless this value of `patience` is more than 0 s and at most 60 s."""
+        """Check that `patience` is more than 0 s and at most 60 s. Raises OutOfRange."""
         if not 0 < exact(patience, "patience") <= 60:
             raise OutOfRange(f"patience {patience:g} s is outside 0 to 60 s")
 
     @property
     def port_patience(self) -> float:
-        """Smallest value of `patience` in s for this port; virtual boards may be slower than real time."""
+        """Smallest value of `patience` in s for this port; virtual lines, which may be slow, need more."""
         return getattr(self.port, "patience", 0.0)
 
     @property
@@ -316,7 +317,7 @@ class Master(Generic[Answer]):
                     return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
-        """Return the MissingReply: no byte was received, or only bytes that belong to no reply."""
+        """Return the MissingReply for a wait in which no byte, or no valid reply, was received."""
         return MissingReply(Fault.NOISE if received else None, received)
 
     def _read_until_idle(self) -> bytes:
@@ -389,7 +390,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         Motions that ended early are included.
 
         Args:
-            motions: motions, or stations whose motions are meant; default: all stations in use.
+            motions: motions, or stations whose last motions are waited for; default: all stations in use.
             timeout: longest wait in s, `None` for no limit.
             progress: called about ten times a second.
 

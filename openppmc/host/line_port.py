@@ -109,11 +109,11 @@ class Counters:
     Attributes:
         sent: frames sent.
         repeated: repeated frames.
-        silent: frames without any byte of a reply.
+        silent: frames after which no byte of a reply was received.
         garbled: invalid replies.
         foreign: replies of another station.
-        refused: frames that arrived corrupt at the station (error code 41 in the reply).
-        lost_reports: polls without a complete reply, in which a report may be lost.
+        refused: frames that the station received corrupt (error code 41 in its reply).
+        lost_reports: polls without a complete reply; a report in the reply may be lost.
     """
 
     sent: int = 0
@@ -198,7 +198,7 @@ class SimLinePort(SimPort):
         return super().read(min(timeout / factor - timeout, _LONGEST)) if 0 < factor < 1 else data
 
     def _pace(self) -> float:
-        """Return the time of the line divided by wall time; 1 if the line does not run."""
+        """Return the speed of the line's time relative to wall time; 1 if the line does not run."""
         from ..sim import SimError
 
         try:

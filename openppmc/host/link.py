@@ -25,7 +25,7 @@ DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
 """Time in s after which a request without an answer is repeated.
 
-The transmission time on the line and the waits of the script are added to it.
+The link adds the transmission time on the line and the waits of the script to it.
 
 USB adapters and busy computers need this time.
 """
@@ -33,7 +33,7 @@ _SETTLE = 0.02
 _QUIET = 0.05
 _BITS = 10
 _READS = 2
-"""Number of answers to a script that may be read until one matches the script."""
+"""Largest number of times that a script is sent until an answer matches it."""
 _MISMATCH = "package and bitstream do not fit together: renew the older one"
 
 
@@ -153,7 +153,7 @@ class Link:
             )
 
     def build(self) -> Build | None:
-        """Return the build of the bitstream, `None` if it is too old or does not report the build."""
+        """Return the build of the bitstream; `None` if the bitstream does not report it or is too old."""
         answer = self.attempt(Script().version())
         return Build.parse(answer.values[0]) if answer.result is Result.DONE else None
 
@@ -273,7 +273,7 @@ class Link:
                 except BadAnswer:
                     if not left:
                         raise
-                # An answer that lacks its last byte 00, or has it twice, may have a valid CRC.
+                # If a last byte 00 of an answer is lost or doubled, the CRC may still be valid.
                 request = session.repeat(self.clock())
             raise AssertionError
         finally:
@@ -327,7 +327,7 @@ class Link:
 
 
 def _silence(name: str, gone: RetriesExhausted) -> str:
-    """Return the error message for a request whose attempts have all failed."""
+    """Return the error message for a request that had no answer in any attempt."""
     if gone.naks:
         reason = Nak(gone.naks[-1]).name.lower().replace("_", " ") if gone.naks[-1] in set(Nak) else "unknown"
         return (

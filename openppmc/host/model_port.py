@@ -32,7 +32,7 @@ _LAG = 0.25
 
 
 class Pacer:
-    """Coupling of virtual time to wall time.
+    """Control of the virtual time, which follows the wall time.
 
     Args:
         speed: virtual seconds per second of wall time, `None` for as fast as possible.
@@ -57,7 +57,7 @@ class Pacer:
             self._origin -= ahead
 
     def behind(self, seconds: float) -> float:
-        """Return the virtual seconds by which the model is late; 0 if they are below SLICE."""
+        """Return the delay of the model in virtual seconds; 0 if it is below SLICE."""
         if self.speed is None:
             return 0.0
         behind = (time.monotonic() - self._origin) * self.speed - seconds
@@ -66,11 +66,11 @@ class Pacer:
 
 _Jobs = SimpleQueue[tuple[Callable[[], Any], SimpleQueue[Any]]]
 _worker: tuple[int, int, _Jobs] | None = None
-"""Worker that calls models: number of its process, its thread, its queue."""
+"""Thread that calls models: the ID of its process, its own ID, and its queue of calls."""
 
 
 def whole(call: Callable[[], T]) -> T:
-    """Call a model and complete the call, even if a signal handler raises an exception.
+    """Call a model, and complete the call even if a signal handler raises an exception.
 
     A model that is interrupted within an edge is unusable. Signal handlers raise exceptions in the main
     thread only, so another thread makes all calls, one after the other. The queues are implemented in C,

@@ -20,7 +20,7 @@ from .speeds import Number
 
 READ_FINISH = 0x80
 SAFETY_POLL = 0.5
-"""Seconds between reads of BUSY while waiting for the interrupt message.
+"""Time in s between two reads of BUSY during a wait for the interrupt message.
 
 Noise on the line may destroy the interrupt message.
 """
@@ -35,7 +35,7 @@ class MotionRequest:
     Attributes:
         operation: lowest three bits of the command code.
         requested: pulses, `None` for endless motions.
-        clock: base clock, `None` for that of the ramp.
+        clock: base clock, `None` for the base clock of the ramp.
     """
 
     operation: int
@@ -62,7 +62,7 @@ class Progress:
     """Argument of a progress callback.
 
     Attributes:
-        position: position in the pulse counter.
+        position: value of the pulse counter.
         done: pulses output since the start.
         requested: pulses of the move, `None` for an endless motion.
         seconds: time since the start in s.
@@ -114,8 +114,8 @@ class Handle(Checked):
     """Members that all motions have.
 
     Attributes:
-        result: result that the part has confirmed.
-        result_error: error of a motion that is over but has no confirmed result.
+        result: result of the motion, after the part has confirmed it.
+        result_error: error of a motion that is over, but whose result the part has not confirmed.
         requested: pulses, `None` for endless motions.
     """
 
@@ -146,8 +146,8 @@ class Motion(Handle):
         ramped: True if the motion has ramps.
         begin: value of the pulse counter before the motion.
         ours: False if another program started the motion.
-        new: FINISH_NEW if a script may have read the finish status already. The read clears the bit
-            FINISH_NEW.
+        new: FINISH_NEW if a script may already have read the finish status, which clears its bit FINISH_NEW;
+            otherwise 0.
     """
 
     requested: int | None
@@ -239,10 +239,10 @@ class Motion(Handle):
         return self.result
 
     def _finish(self, finish: int | None = None) -> None:
-        """Read the finish status unless a script has read it. The read also releases int_n (P104-RD-04).
+        """Read the finish status, unless a script has already read it. The read releases int_n (P104-RD-04).
 
         With DATASHEET timing, BUSY rises up to 112 us after the command, and the part accepts no byte before
-        (P104-DS-03). A rejection in this time means that the motion has not begun yet.
+        (P104-DS-03). If the read is rejected in this time, the motion has not begun yet.
         """
         bit, remaining = self._axis._code_bits, self._axis._read_codes.remaining
         script = Script() if finish is not None else Script().call(READ_FINISH | bit).get(1)
@@ -277,7 +277,7 @@ class Motion(Handle):
             self.result = self._axis._annotate(end)
 
 
-# For any start position, homing approaches the same edge of the switch from the same side.
+# Homing from any start position: it always approaches the same edge of the switch from the same side.
 
 LONGEST_BACK_OFF = 200_000
 

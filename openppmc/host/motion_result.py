@@ -28,7 +28,7 @@ ALARM_INPUT = ("alarm input", "clear the drive's alarm")
 
 
 class MotionError(PpmcError):
-    """A motion ended differently from its request; `result` holds position and cause."""
+    """A motion did not end as requested; `result` holds position and cause."""
 
     end = Renamed("result")
 
@@ -105,7 +105,7 @@ def position_lost(where: str, known: int | None) -> ProtocolError:
 
 
 class Cause(Flag):
-    """Cause of the end of a motion; several may coincide.
+    """Causes of the end of a motion; several may apply.
 
     Attributes:
         COMPLETE: all pulses were output.
@@ -147,7 +147,7 @@ class MotionResult:
 
     Attributes:
         pulses: pulses output, CW positive; `None` for a motion that another program started.
-        remaining: pulses not output; an endless operation counts as 2^24 pulses.
+        remaining: pulses not output; an endless operation is treated as 2^24 pulses.
         position: value of the pulse counter after the motion, `None` if the bridge has no counter.
         finish: finish status byte.
         message_prefix: prefix of messages, which names the axis if the part has several.
@@ -251,8 +251,8 @@ def decode_end(
         raise unknown(f"finish status 0x{finish:02X}")
     cause = Cause(finish & _CAUSE_BITS)
     if not cause and number == ORIGIN:
-        # The origin switch sets no bit. The registers are equal for a search of all 2^24 pulses and for a
-        # search that the switch ended one pulse earlier.
+        # The origin switch sets no bit. The registers have the same values after a search that output all
+        # 2^24 pulses and after a search that the switch ended one pulse earlier.
         searched_all = remaining == 0 and moved is not None and abs(moved) == total
         cause = Cause.COMPLETE if searched_all else Cause.ORIGIN
     pulses_left = remaining + 1 if cause else 0

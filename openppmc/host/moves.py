@@ -1,4 +1,4 @@
-"""Consecutive moves of one axis, of which a frame contains several.
+"""Consecutive moves of one axis; one frame contains several of them.
 
 For each move, the frame contains the command, a wait for its end, and reads of finish status and pulse
 counter. The bridge executes these steps. It starts the next move only if the finish status names the
@@ -18,17 +18,18 @@ from .motion_result import MotionResult
 from .script import LONGEST_SCRIPT, Answer, Result, Script
 
 AHEAD = 16
-"""Largest number of moves that are read ahead."""
+"""Largest number of moves that are taken from the iterator before they can be started."""
 LONGEST_WAIT_MS = 20
 """Longest wait for the end of a move within a frame.
 
-The host waits for the end of a longer move. Therefore, a frame ends soon if its host has disappeared.
+If a move takes longer, the frame ends, and the host waits for the end of the move. Thus the moves stop soon
+after the host has disappeared.
 """
 _SELECT_BYTES = 2
 _HEAD = 3
-"""Number of values in an answer that precede those of the first move.
+"""Number of values in an answer before the values of the first move.
 
-The last of them is the position counter.
+The last of these values is the position counter.
 """
 _STATUS, _FINISH, _COUNT = -4, -2, -1
 """Indices of the values of one move in its answer, counted from the end."""
@@ -54,10 +55,11 @@ def run_moves(
 
     Args:
         numbers: pulses of each move.
-        ahead: largest number of moves that are read ahead.
-        execute: executes a frame with the first of the given moves. It returns the motions that were started,
-            of which the last one may still be running, and the error that prevented the next move.
-        empty: returns the result of a move of 0 pulses.
+        ahead: largest number of moves that are taken from `numbers` before they can be started.
+        execute: function that executes one frame with as many of the given moves as fit, beginning with the
+            first. It returns the motions that were started, and the error that prevented the next move. The
+            last motion may still be running.
+        empty: function that returns the result of a move of 0 pulses.
     """
     waiting: list[int] = []
     while True:

@@ -112,7 +112,7 @@ class AnyAxis(Stoppable, Protocol):
     def number(self) -> int: ...
     @property
     def _busy_mask(self) -> int:
-        """Mask of the bits that are set in the raw status of the part while this axis moves."""
+        """Mask of the bits of the part's status byte that are set while this axis moves."""
 
     @property
     def kind(self) -> Capabilities: ...

@@ -66,8 +66,8 @@ class SerialPort:
         import serial
 
         port = serial.Serial(path, baud, timeout=self.SLICE, write_timeout=2, exclusive=True)
-        # Without this mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Some systems
-        # and adapters do not support this mode.
+        # Without the low-latency mode, the driver of FTDI adapters keeps the end of an answer for 16 ms. Some
+        # systems and adapters do not support this mode.
         with suppress(AttributeError, NotImplementedError, ValueError):
             port.set_low_latency_mode(True)
         return port
@@ -81,7 +81,7 @@ class SerialPort:
                 return data
 
     def _guarded(self, action: Callable[[], bytes]) -> bytes:
-        """Call a function that accesses the port, and return its result. Raises Disconnected."""
+        """Call a function that accesses the port, and return its result. Raises Disconnected if it fails."""
         try:
             return action()
         except (OSError, TypeError) as error:
@@ -192,7 +192,7 @@ def _open_error_reason(path: str, error: Exception) -> str:
 
 
 def _windows_code(text: str) -> int | None:
-    """Return the number in the message of an error from Windows, which pyserial reports only as text.
+    """Return the number of a Windows error from its message, because pyserial reports only the text.
 
     >>> _windows_code("could not open port 'COM3': FileNotFoundError(2, 'not found', None, 2)")
     2
@@ -214,13 +214,16 @@ def _how_to_get_permission(path: str) -> str:
 
 
 def virtual(spec: str) -> str:
-    """Return the port without `char:` if it is `sim:…` or `model:…`, else "". It need not have its colon."""
+    """Return `spec` without `char:` if the port is virtual, else "".
+
+    A virtual port is `sim:…` or `model:…`. Without options, the colon may be missing.
+    """
     inner = spec.removeprefix(CHAR)
     return inner if f"{inner}:".startswith((MODEL, SIM)) else ""
 
 
 def open_port(spec: str, baud: int = BASE_BAUD) -> Port:
-    """Open a port: device path, `sim:plant text`, `model:plant text` or `char:port`. Raises PortError."""
+    """Open a port: device path, `sim:` or `model:` with options, or `char:` with a port. Raises PortError."""
     if spec.startswith(CHAR):
         from .char_port import CharPort
 

@@ -44,8 +44,8 @@ class Ppmc104(OneAxis):
     def _at_rest(self, script: Script) -> None:
         identity = self.link.identity
         if identity.datasheet:
-            # The motion of the previous command may not have started yet, so wait until the latest time of
-            # its start. The bridge may wait 1 ms less than the limit.
+            # The previous command may start a motion that has not begun yet, so wait until its latest start.
+            # The bridge may wait 1 ms less than the limit.
             limit = 2 + _START_XT * 1000 // identity.xtal_hz
             answer = self.link.attempt(Script().timeout(limit).wait(1, self._busy_mask, self._busy_mask))
             if answer.result is not Result.TIMED_OUT:

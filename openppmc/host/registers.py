@@ -44,14 +44,14 @@ Pins = TypeVar("Pins", bound="Switches")
 
 @dataclass(frozen=True)
 class ReadCodes:
-    """Codes of the read commands that differ between parts."""
+    """Codes of those read commands whose codes differ between parts."""
 
     outputs: int = 0x82
     remaining: int = 0x83
 
 
 FAMILY = ReadCodes()
-"""Codes of most parts for these read commands."""
+"""Codes of these read commands on most parts."""
 
 
 @dataclass(frozen=True)

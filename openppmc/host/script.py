@@ -56,7 +56,7 @@ class Script:
 
     @property
     def patience(self) -> float:
-        """Longest expected run time in s: all waits of the script, and one time limit for the mailbox."""
+        """Longest expected run time in s: the time limits of all waits, plus one for the mailbox."""
         return (self._waits_ms + self._mailbox_ms) / 1000
 
     def _add(self, name: str, code: bytes, gives: int = 0, mailbox: bool = False) -> Script:
@@ -100,7 +100,7 @@ class Script:
         return self._add("EVENTS", bytes([0x03, int(on)]))
 
     def timeout(self, milliseconds: int) -> Script:
-        """Append the time limit of each following wait, 0 to 65535 ms."""
+        """Append an operation that sets the time limit of the following waits, 0 to 65535 ms."""
         _within("time limit in ms", milliseconds, 0, 0xFFFF)
         self._wait_ms = milliseconds
         return self._add("TIMEOUT", b"\x04" + milliseconds.to_bytes(2, "little"))
@@ -154,20 +154,20 @@ class Script:
         return self._add("WRITE", bytes([0x10 | _register(a), _within("byte", byte, 0, 255)]))
 
     def read(self, a: int) -> Script:
-        """Append one read access, 1 byte."""
+        """Append one read access to register a; it returns 1 byte."""
         return self._add("READ", bytes([0x20 | _register(a)]), 1)
 
     def read_many(self, a: int, n: int) -> Script:
-        """Append n = 1 to 255 read accesses, n bytes."""
+        """Append n = 1 to 255 read accesses to register a; they return n bytes."""
         return self._add("READN", bytes([0x30 | _register(a), _within("count", n, 1, 255)]), n)
 
     def read_number(self, a: int, n: int) -> Script:
-        """Append a read access to each of n = 1 to 4 registers that begin at register a, n bytes."""
+        """Append a read of n = 1 to 4 successive registers, the first is a; it returns n bytes."""
         _within("count", n, 1, 4)
         return self._add("READ", bytes(0x20 | _register(place) for place in range(a, a + n)), n)
 
     def post(self, a: int, data: bytes) -> Script:
-        """Append writes of 1 to 255 bytes. Each byte is written when the part accepts it (IBF = 0)."""
+        """Append writes of 1 to 255 bytes to register a, each when the part accepts it (IBF = 0)."""
         _within("number of bytes", len(data), 1, 255)
         return self._add("POST", bytes([0x40 | _register(a), len(data)]) + data, mailbox=True)
 
@@ -193,7 +193,7 @@ class Script:
         return self._add("WAIT", bytes([0x70 | _register(a), mask, value]), 1)
 
     def write_many(self, a: int, data: bytes) -> Script:
-        """Append 1 to 255 write accesses without waiting."""
+        """Append 1 to 255 write accesses to register a, without a wait between them."""
         _within("number of bytes", len(data), 1, 255)
         return self._add("WRITEN", bytes([0x80 | _register(a), len(data)]) + data)
 
@@ -224,9 +224,9 @@ class Answer:
     The answer is complete if its result is DONE.
 
     Attributes:
-        values: data of each operation that returns data, in order. If an operation failed, its data are the
-            last entry.
-        failed: operation that ended the script; `None` if POS is not the position of an operation.
+        values: data of each operation that returns data, in order. If an operation failed, the data that it
+            returned before are the last entry.
+        failed: operation that ended the script early; `None` if POS is not the position of an operation.
         last: last byte that was read from the part.
     """
 
@@ -236,17 +236,17 @@ class Answer:
     last: int = 0
 
     def byte(self, place: int) -> int:
-        """Return a value of one byte by its index."""
+        """Return the value with index `place`, which has one byte."""
         (value,) = self.values[place]
         return value
 
     def number(self, place: int, signed: bool = False) -> int:
-        """Return a value by its index as a little-endian number."""
+        """Return the value with index `place` as a little-endian number."""
         return int.from_bytes(self.values[place], "little", signed=signed)
 
 
 class BadAnswer(ValueError):  # noqa: N818 - names the invalid object
-    """The answer does not match the script, because the device that sent it violates the protocol."""
+    """The answer does not match the script: the device that sent it violates the protocol."""
 
 
 def parse_answer(script: Script, body: bytes) -> Answer:

@@ -39,9 +39,10 @@ class BaseClock:
         csel, vsel: levels of the strap pins that select this clock.
         external: True for the clock at the pin `clock`.
         least_rate: lowest rate byte that the driver uses with this clock.
-        beyond: number of base clock periods of an interval minus its rate byte.
-        slowest_rate: highest rate, which is that of the slowest speed.
-        clk: number of the clock, on parts that number their clocks.
+        beyond: number of base clock periods of an interval, minus the rate byte of the interval: 1 if the
+        speed is base clock / (rate + 1), 0 if it is base clock / divisor.
+        slowest_rate: highest rate byte, which selects the slowest speed.
+        clk: number of the clock in the initialisation, on parts that number their clocks.
     """
 
     period: Fraction
@@ -88,7 +89,7 @@ class BaseClock:
         return self.speed_of(rate + self.beyond)
 
     def speed_of(self, periods: int) -> Fraction:
-        """Return the speed in pps if an interval lasts this number of base clock periods."""
+        """Return the speed in pps for intervals of this number of base clock periods."""
         return 1 / (periods * self.period + self.extra)
 
     @property
@@ -106,7 +107,7 @@ class BaseClock:
         return self.slowest <= exact(pps, "speed") <= self.fastest
 
     def choose(self, pps: Number, what: str = "speed") -> Speed:
-        """Return the rate whose interval is nearest to that of a speed.
+        """Return the rate whose interval is nearest to the interval of the speed `pps`.
 
         Raises:
             OutOfRange: the speed is out of range; the message states the range.
@@ -173,7 +174,7 @@ class Setup:
 
     @property
     def flat(self) -> bool:
-        """True if the set-up has only one speed, the high speed.
+        """True if moves have no ramp, because the start speed equals the high speed.
 
         On an STMC, this is also the case with 0 ramp pulses (STMC-MOV-04).
         """
@@ -210,12 +211,13 @@ def motor_bits(phases: int, half_step: bool) -> int:
 def choose_clock(
     xtal_hz: int, start_pps: Number, base_clock: Number | None, vsel: int = 1, least_rate: int = 0
 ) -> BaseClock:
-    """Return the requested internal base clock, or one that reaches start_pps.
+    """Return the internal base clock `base_clock`, or the most suitable one for start_pps.
 
-    The fast base clock is preferred because of its finer speed resolution.
+    The most suitable clock is the fast one, because of its finer speed resolution, if it reaches start_pps;
+    otherwise, it is the slow clock.
 
     Args:
-        base_clock: 500 000 or 125 000 Hz at a 16 MHz crystal, `None` to choose.
+        base_clock: frequency, 500 000 or 125 000 Hz at a 16 MHz crystal; `None` for the most suitable clock.
 
     Raises:
         OutOfRange: the part does not have this base clock.

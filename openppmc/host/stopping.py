@@ -20,20 +20,20 @@ if TYPE_CHECKING:
 LONGEST_WAIT = 10.0
 """Seconds allowed for motors to decelerate.
 
-A motor that still moves after this time is stopped immediately.
+A motor that is still moving after this time is stopped immediately.
 """
 SIGNALS = tuple(
     getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
 )
-"""Signals of this system that `stop_on_signals` handles."""
+"""Signals that `stop_on_signals` handles, as far as this operating system has them."""
 NO_MOTION = "nothing was moving"
 """Beginning of the result of `stop_motors` if no motor was moving."""
 NOT_KNOWN = "not known whether a motor moves"
-"""Beginning of the result of `stop_motors` if a part does not answer, and no motor was stopped."""
+"""Beginning of the result of `stop_motors` if a part does not answer and no motor was stopped."""
 arrived: list[int] = []
 """Signals that the command line received before it opened a board.
 
-They are stored, because Python may ignore an exception that a signal handler raises.
+A handler stores them here and raises an exception, but Python may ignore this exception.
 """
 
 
@@ -93,7 +93,7 @@ def stop_motors(
     Args:
         seconds: longest wait; motors that still move after it are stopped immediately.
         stop_now: called about ten times a second; if it returns True, the motors are stopped immediately.
-        every: True to stop also motions that these objects did not start.
+        every: True to stop all motions, False to stop only motions that these objects started.
     """
     from .errors import AlreadyDecelerating, NothingToStop, NotInitialised, PpmcError, Timeout
 

@@ -1,8 +1,9 @@
-"""Part at pin level: time, input pins, output edges, reset. Subclasses define the part itself.
+"""Part at pin level: time, input pins, output edges, reset. A subclass for each part defines its function.
 
-A time is the index of a rising edge of `clk`. Edge t is the first edge that samples a pin change at t. An
-output edge at t is the change of a register at edge t. Edge 0 is the first edge with rst_n = 1. The cost of a
-run is proportional to the number of events, not to the number of cycles.
+A time is the index of a rising edge of `clk`. Edge 0 is the first edge with rst_n = 1. If an input pin
+changes at time t, edge t is the first edge that samples the change. If an output changes at time t, its
+register changes at edge t. The cost of a run is proportional to the number of events, not to the number of
+cycles.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from .clock import Callback, Edge, EdgeLog, Latency, QuantumCounter, Scheduler, 
 
 # Shared elements of the blocks of a model: phases of an edge of `clk`, set-up, input levels, output
 # registers. At an edge, the callbacks of the blocks run in the order of `Phase`. Thus each block reads the
-# state that the registers of the other blocks hold just before the edge.
+# registers of the other blocks with their values from just before the edge.
 
 SetPin = Callable[[int, str, int], None]
 
@@ -49,8 +50,8 @@ class Context:
     """Set-up and services of every block.
 
     Attributes:
-        levels: synchronised input levels that decisions use. On a part with several axes, they are those of
-            one axis.
+        levels: synchronised input levels that decisions use; on a part with several axes, the levels of one
+            axis.
     """
 
     timebase: Timebase
@@ -67,7 +68,7 @@ class Context:
 
 
 class PinRegister:
-    """Output registers. They adopt the internal levels `lag` cycles later.
+    """Output registers. They get the internal levels `lag` cycles after a change.
 
     Args:
         set_pin: set_pin(t, signal, value) sets a pin of the part.
@@ -135,8 +136,9 @@ class Square:
 class Chip(ABC):
     """One part. The model starts just after the release of reset, before edge 0.
 
-    Subclasses define their pins in INPUTS (idle levels), WIDTHS (numbers of bits that are not 1) and
-    HOST_PINS (bus). If these depend on a parameter, the subclass sets them before it calls `__init__`.
+    A subclass defines its pins: INPUTS contains the inputs with their idle levels, WIDTHS the widths of all
+    pins with several bits, and HOST_PINS the pins of the bus. If these constants depend on a parameter, the
+    subclass sets them before it calls `__init__`.
 
     Args:
         clk_hz: 8e6..200e6.
@@ -187,11 +189,11 @@ class Chip(ABC):
 
     @abstractmethod
     def _on_levels(self, t: int, levels: Mapping[str, int]) -> None:
-        """Process synchronised levels of the other pins, which decisions at edge t use."""
+        """Process synchronised levels of all other pins; decisions at edge t use these levels."""
 
     @abstractmethod
     def _strobe(self, write: bool, reg: int) -> dict[str, int]:
-        """Return the levels of the bus pins for an access, without d_i."""
+        """Return the levels of the bus pins, except d_i, for an access."""
 
     # ------------------------------------------------------------------ time
 
@@ -217,9 +219,10 @@ class Chip(ABC):
     def pins(self, t: int, **levels: int) -> None:
         """Set input levels.
 
-        Edge t is the first edge that samples these levels; later calls for the same t override them.
-        If two registers sample a pin, for example rd_n, "stage.rd_n" is the level that the second register
-        samples; for a strobe, this is the synchroniser. Without "stage.rd_n", both sample the same level.
+        Edge t is the first edge that samples these levels; later calls for the same t override them. Two
+        registers may sample the same pin, for example rd_n, and one of them may miss a change. "stage.rd_n"
+        is then the level that the second register samples (for a strobe, the synchroniser). Without
+        "stage.rd_n", both registers sample the same level.
 
         rst_n = 0 is effective immediately; the output edges that it causes have the time t.
 
@@ -276,8 +279,8 @@ class Chip(ABC):
         """Write a data byte (reg 0) or command byte (reg 1) with a strobe from edge t.
 
         Returns:
-            Edge 0 of P104-BUS-06, which is t + strobe. The model has all pin changes up to and including this
-            edge, but the edge itself is not simulated yet.
+            Edge 0 of P104-BUS-06, which is t + strobe. All pin changes up to and including this edge are set,
+            but the edge is not simulated yet.
         """
         levels = self._strobe(True, reg)
         self.pins(t, **levels, d_i=byte)

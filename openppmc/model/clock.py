@@ -24,7 +24,8 @@ class Latency:
         c_event: from the write event to the C-event if the mailbox is open (P104-HSK-03, 0..8).
         window_open: from the end of a closed window to the C-event of a byte that waited.
         host_pins: from an internal change to the pins int_n, aux_n, auxo (0..2).
-        int_pin: from an interrupt latch to int_n on parts with several latches (P2104-INT-03, -05, 0..2).
+        int_pin: from a change of an interrupt latch to int_n, on parts with several latches (P2104-INT-03,
+        -05, 0..2).
         motor_pins: from an internal change to the pins s, pout_n, hold, dir (0..2).
         start_extra: from the start edge to the internal pulse 1, in addition to W (P104-TIM-02, 0..2).
         end_extra: from the rising edge of pout_n to the falling edge of BUSY (P104-END-01, 0..4).
@@ -37,18 +38,19 @@ class Latency:
         build_base, build_per_rate: a ramp-table build takes base + per_rate * (RL - RH) cycles (P104-HSK-04,
             <= 40000). For RL = RH, which requires no table, it takes 3 cycles.
         build_clk: function of (RL, RH, PA) that replaces build_base and build_per_rate.
-        build_queue: addition to a build where two axes share the builder.
+        build_queue: addition to the duration of a build on parts whose two axes share the builder.
         ds_host: addition to times measured from a write event (P104-DS, -0/+16).
         ds_waited: addition to times measured from the end of a wait (P104-DS, -0/+16).
         ds_motor: addition to times measured from a pulse, a deciding edge or an input level (P104-DS,
             -0/+16).
         ds_window: addition to the windows of P2104-DS-01..14, which count from the C-event.
-        ds12_lag: from a pulse event to the edge at which the length of its interval is compared for
-            P104-DS-12.
-        lookup_start, lookup_per_rate: the core looks up the rate of an interval that is slower than the
-            previous one while the previous interval runs. The look-up takes lookup_start, plus
-            lookup_per_rate for each rate. The mailbox opens when the look-up has passed the limit.
-        lookup_first: length of the look-up for the first such interval, whose rate is already known.
+        ds12_lag: from a pulse event to the edge that compares the length of the new interval with the limit
+            of P104-DS-12.
+        lookup_start, lookup_per_rate: if the next interval is slower than the running one, the core searches
+            for its rate, one rate after the other. The search takes lookup_start, plus lookup_per_rate for
+            each rate that it passes. With P104-DS-12, the mailbox opens when the search has passed the limit
+            of that rule.
+        lookup_first: duration of the search for the first slower interval, whose rate is already known.
     """
 
     c_event: int = 2
@@ -114,7 +116,7 @@ class Timebase:
     def nearest(self, cycles: int) -> int:
         """Return the number of cycles nearest to n crystal cycles; a half is rounded up.
 
-        X and H of P104-INT-03 are such numbers.
+        The times X and H of P104-INT-03 are such numbers.
         """
         return (2 * cycles * self.clk_hz + self.xtal_hz) // (2 * self.xtal_hz)
 
@@ -127,24 +129,24 @@ class Timebase:
     def quantum(self) -> int:
         """Crystal cycles of a quantum.
 
-        The number is 4. It is 5 if 4 crystal cycles would be shorter than 2 cycles of `clk` (8 MHz and a fast
-        crystal).
+        The number is 4, except that it is 5 if 4 crystal cycles would be shorter than 2 cycles of `clk` (8
+        MHz and a fast crystal).
         """
         return 4 if 2 * self.clk_hz >= self.xtal_hz else 5
 
     def tick(self, n: int) -> int:
-        """Return the cycles from the restart of the quantum counter to its tick n (P104-BCK-03)."""
+        """Return the number of cycles from the restart of the quantum counter to its tick n (P104-BCK-03)."""
         return self.cyc(self.quantum * n)
 
     def ticks_in(self, clk: int) -> int:
-        """Return the number of the last tick at or before this cycle after the restart.
+        """Return the number of the last tick that occurs at most `clk` cycles after the restart.
 
         The result is 0 if clk < 0.
         """
         return max(0, clk * self.xtal_hz // (self.quantum * self.clk_hz))
 
     def seconds(self, clk: int) -> float:
-        """Return the time of this number of cycles in s."""
+        """Return the duration of `clk` cycles in s."""
         return clk / self.clk_hz
 
 
@@ -169,8 +171,8 @@ class QuantumCounter:
 
 
 # Event queue of the models: callbacks are ordered by edge of `clk`, then by phase within the edge. A phase is
-# a small integer; each part has a list of its phases. Their order defines which callback reads the state of
-# another block before that block changes it. Callbacks of the same edge and phase run in the order in which
+# a small integer; each part has a list of its phases. The order of the phases defines which callbacks read
+# the state of another block before it changes. Callbacks of the same edge and phase run in the order in which
 # they were scheduled.
 
 Callback = Callable[[int], None]
@@ -190,7 +192,10 @@ class Event:
 
 
 class Scheduler:
-    """Heap of events. `now` is the last edge that was simulated completely, -1 before the first."""
+    """Heap of events.
+
+    `now` is the last edge that was simulated completely; it is -1 before the first edge.
+    """
 
     def __init__(self) -> None:
         self.now = -1
@@ -278,10 +283,10 @@ class Edge(NamedTuple):
 
 
 class EdgeLog:
-    """Current levels of all outputs and the list of their changes, in order of time.
+    """Current levels of all outputs, and the list of their changes in order of time.
 
     `initial` and `levels` map each output to its first level and to its current level. Each entry of `edges`
-    changes the level, and there is at most one entry per signal and edge of `clk`.
+    is a change to another level; there is at most one entry per signal and edge of `clk`.
     """
 
     def __init__(self, initial: Mapping[str, int]) -> None:

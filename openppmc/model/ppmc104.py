@@ -72,9 +72,9 @@ DEFAULT_QUANTA = (260, 435)
 class ChopperTimes:
     """Chopper times.
 
-    They are the defaults until the first command 0x84, and then the two values of the last command 0x84.
+    Until the first command 0x84, the default times are used; afterwards, the times of the last such command.
 
-    Both times are longer if vsel is low.
+    If vsel is low, both times are longer.
     """
 
     def __init__(self, context: Context) -> None:
@@ -165,7 +165,7 @@ class Motion(TimedMotion):
     def _fast_decision_delay(self, rate: int, limit: int) -> int:
         """Return the number of cycles from a pulse event to the decision of P104-DS-12.
 
-        See Latency.ds12_lag.
+        The decision compares the length of the new interval with a limit; see `Latency.ds12_lag`.
         """
         latency, quanta = self._context.latency, self._clock.quanta
         before = self.intervals[-2].rate if len(self.intervals) > 1 else rate
@@ -238,7 +238,7 @@ class CommandUnit(ByteUnit):
         return None
 
     def _later(self, t: int, reference: int, cycles: int, action: Callable[[int], None]) -> None:
-        """Execute an action with FAST timing immediately, with DATASHEET timing after its time (P104-DS-11).
+        """Execute an action immediately, or with DATASHEET timing after its processing time (P104-DS-11).
 
         The mailbox is closed during the processing time.
 
@@ -285,7 +285,7 @@ class CommandUnit(ByteUnit):
     # ------------------------------------------------------------------ initialisation
 
     def _initialise(self, t: int, code: int, data: list[int], reference: int) -> Error | None:
-        """Check and store an initialisation after its fourth byte, and begin the table build.
+        """Check an initialisation after its fourth byte. If it is valid, store it and begin the table build.
 
         Rules: P104-INI-05..08.
         """

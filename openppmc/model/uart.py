@@ -25,7 +25,7 @@ class Queued(Protocol):
 
 
 class Receiver:
-    """Receiver.
+    """Receiver of a UART.
 
     Args:
         bit: bit time in cycles.
@@ -89,7 +89,7 @@ class Transmitter:
 
     Attributes:
         bit: duration of a bit in cycles.
-        sent: list for (edge in the middle of the stop bit, character).
+        sent: list to which (edge in the middle of the stop bit, character) of each character is appended.
         lead: number of bits from the rising edge of snd to the first start bit.
     """
 

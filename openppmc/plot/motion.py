@@ -45,7 +45,7 @@ COLOURS = {
 
 
 def bare(axes: Axes) -> None:
-    """Remove the frame and all ticks except those of the x axis."""
+    """Remove the frame, and all ticks except the ticks of the x axis."""
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_color(PALE)

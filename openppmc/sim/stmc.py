@@ -1,7 +1,7 @@
 """Machine model of an STMC; the word `read_map` selects the read codes of the device.
 
-The reference point is between the deceleration limits of a J105 STMC. A search for it also ends at each of
-these limits.
+The reference point is between the deceleration limits of a J105 STMC. A search for the reference point also
+ends at each of these limits.
 """
 
 from __future__ import annotations

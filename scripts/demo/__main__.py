@@ -32,7 +32,7 @@ MOST = 11  # number of bytes of a block that are printed
 
 
 def newest_build(part: str) -> str:
-    """Return the number of object files that the Verilator build has completed, as text."""
+    """Return the progress of the Verilator build as text."""
     folders = sorted((BUILD / "sim").glob(f"{part}-*/"), key=lambda path: path.stat().st_mtime)
     count = len(list(folders[-1].glob("*.o"))) if folders else 0
     return f"{count} object files" if count else "reading SystemVerilog"
@@ -193,7 +193,7 @@ def play(demo: Demo) -> int:
         try:
             step("draw the picture", lambda: demo.draw(comparison, chapters, picture))
         except (IndexError, StopIteration):
-            # The close-ups need edges that faulty RTL may not have.
+            # The close-ups need certain edges, which may be missing with faulty RTL.
             if comparison.mismatch is None:
                 raise
     except SimError as error:

@@ -33,8 +33,8 @@ class View:
     """Content of the VCD.
 
     Attributes:
-        split: for a vector that is shown as single bits, the names of the bits, lowest first.
-        motors: by scope of a motor, the pin or vector from which `pulses` derives the pulses of this motor.
+        split: names of the bits, lowest first, of each vector that is shown as single bits.
+        motors: pin or vector from which `pulses` derives the pulses of a motor, by the motor's scope.
         groups: (title, signals) of the saved views.
         access: function that returns the text of a host access.
     """

@@ -24,12 +24,12 @@ def bit(changes: Sequence[tuple[int, int]], index: int) -> Changes:
 
 
 def falls(changes: Changes) -> list[int]:
-    """Return the edges on which a pin becomes low, which are the pulses of an active-low pulse output."""
+    """Return the edges at which a pin becomes low; at an active-low pulse output, these are the pulses."""
     return [t for t, level in changes if level == 0]
 
 
 def rises(changes: Changes) -> list[int]:
-    """Return the edges on which a pin becomes high."""
+    """Return the edges at which a pin becomes high."""
     return [t for t, level in changes if level == 1]
 
 

@@ -1,4 +1,4 @@
-"""Display of the steps of a demo on the terminal: the running step, its progress, completed steps."""
+"""Display of the steps of a demo: the running step with its progress, and completed steps."""
 
 from __future__ import annotations
 

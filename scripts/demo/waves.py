@@ -23,11 +23,11 @@ from scripts.demo.scenes import bit
 Signal = tuple[str, str, int | str, Any, Sequence[tuple[int, Any]]]
 """Scope, name, width in bits or kind (string, real, integer), first value, changes (edge, value)."""
 TEXTS = ("host.access", "line.question", "line.answer")
-LATEST_FALL = 2.1e-3  # time without a pulse in seconds after which the speed is 0
+LATEST_FALL = 2.1e-3  # largest interval between pulses in s; above it, the speed is 0
 
 
 def speed_changes(pulses: Sequence[int], clk_hz: int) -> Iterator[tuple[int, float]]:
-    """Yield (edge, pulses per second) for each change of speed; 0 between motions."""
+    """Yield (edge, pulses per second) for each change of speed; between motions, the speed is 0."""
     gap = round(LATEST_FALL * clk_hz)
     level = 0.0
     for first, second in zip(pulses, [*pulses[1:], pulses[-1] + gap + 1] if pulses else [], strict=True):
@@ -42,7 +42,7 @@ def single_pins(
     changes: Mapping[str, Sequence[tuple[int, int]]],
     split: Mapping[str, Sequence[str]],
 ) -> dict[str, tuple[int, Sequence[tuple[int, int]]]]:
-    """Return, by pin, the first level and the changes; a vector in `split` is replaced by its bits."""
+    """Return the first level and the changes of each pin; a vector in `split` is replaced by its bits."""
     pins: dict[str, tuple[int, Sequence[tuple[int, int]]]] = {}
     for name, level in levels.items():
         for index, single in enumerate(split.get(name, ())):
@@ -53,7 +53,7 @@ def single_pins(
 
 
 def motor_pulses(comparison: Any, view: View) -> dict[str, list[int]]:
-    """Return, by scope of the motor, the edges of its pulses or steps as recorded at the RTL."""
+    """Return the edges of the pulses or steps of each motor, as recorded at the RTL, by its scope."""
     pins = single_pins(comparison.initial, comparison.actual, view.split)
     whole = comparison.actual
     return {

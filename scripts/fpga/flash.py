@@ -22,7 +22,7 @@ MISSING = (
 def command(on: Board, host: str, sram: bool) -> list[str]:
     """Return the loader's command line, which writes flash or SRAM; raise ProjectError without a loader.
 
-    The loader of iCE40 boards writes only the flash, so it needs no option.
+    The loader of iCE40 boards can write only the flash, so it has no option for this.
     """
     program = next(filter(None, map(shutil.which, PROGRAMS)), None)
     if program is None:

@@ -1,9 +1,9 @@
 """Check of asynchronous inputs: which registers sample a pin or a register of another clock (docs/cdc.md).
 
-``python -m scripts.measure.cdc`` elaborates the tops of parts and boards. For each flip-flop and memory it
-collects the pins and the registers of other clocks that reach an input through logic only. The first stage of
-a `ppmc_sync` may sample one pin; every other case needs a line with its reason in lint/cdc.txt. `--write`
-writes the tables of docs/cdc.md; without it (`make lint`), stale tables are a finding, too.
+``python -m scripts.measure.cdc`` elaborates the tops of parts and boards. For each flip-flop and memory, it
+collects the pins and the registers of other clocks that drive an input, directly or through logic. The first
+stage of a `ppmc_sync` may sample one pin; every other case needs a line with its reason in lint/cdc.txt.
+`--write` writes the tables of docs/cdc.md; without it (`make lint`), outdated tables are a finding, too.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ CONSTANTS = {"0", "1", "x", "z"}
 
 
 class Origin(NamedTuple):
-    """Source of an asynchronous level; `kind` is pin, clock (register of another clock) or stage."""
+    """Source of an asynchronous level; `kind` is pin, clock (a register of another clock) or stage."""
 
     kind: str
     name: str
@@ -118,7 +118,7 @@ class Netlist:
         return bool(cell["type"].startswith("$mem"))
 
     def clock(self, name: str) -> Any:
-        """Return the net that clocks a register or memory; None for logic and tables without a clock."""
+        """Return the net at the clock input of a register or memory; None for cells without a clock."""
         cell = self.cells[name]
         if "DFF" not in cell["type"].upper() and not self.is_memory(cell):
             return None
@@ -144,7 +144,7 @@ class Netlist:
                     yield bit, clock, Origin("clock", path)
 
     def reached(self, origin: Any) -> Iterator[tuple[str, str, bool]]:
-        """Yield each register that a net reaches: cell, port, and True if no logic is in between."""
+        """Yield each register input that a net reaches: (cell, port, True if no logic is in between)."""
         seen, todo = {origin}, [origin]
         while todo:
             bit = todo.pop()
@@ -227,7 +227,7 @@ def cases(samples: Iterable[Sample]) -> dict[str, list[Sample]]:
 
 @cache
 def reasons() -> dict[str, str]:
-    """Return case -> reason from lint/cdc.txt."""
+    """Return the reasons in lint/cdc.txt, by case."""
     rows = [line for line in REASONS.read_text(encoding="utf-8").splitlines() if line and line[0] != "#"]
     return {case.strip(): reason.strip() for case, _, reason in (row.partition("|") for row in rows)}
 

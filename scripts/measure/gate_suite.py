@@ -26,7 +26,7 @@ QUICK_FAMILY = {"ppmc2104": "ice40", "stmc": "ice40", board.TOP: "ice40"}
 QUICK_DEFAULT = "ecp5"
 
 RECORDER = (("RECORD", 10),)
-"""Parameters of the bitstreams for the self-test: a larger recorder is not in block RAM."""
+"""Parameters of the bitstreams for the self-test. A larger recorder needs RAM, which is not converted."""
 PARAMS = {"bank": (), "pmc006": (("BAUD", 115_200),)}
 """Parameters of the bitstream for tests without a recorder, by part."""
 TARGETS = {plain.FAMILY: "test-verilog", gates.BITS: "test-bits"}
@@ -38,7 +38,7 @@ TOO_BIG = "the part does not fit in this family"
 
 
 def suites() -> list[PartTests]:
-    """Return the tests of each part that has tests for netlists, from the table of parts."""
+    """Return the tests for netlists, by part, from the table of parts."""
     return [row.load("gates") for row in parts.having("gates")]
 
 
@@ -167,7 +167,7 @@ def _board(family: str) -> list[GateTest]:
 
 
 def _boards() -> list[GateTest]:
-    """Return the tests of the bitstreams of the board: those of the quick sample, then one of each part."""
+    """Return the tests of the board's bitstreams: the tests of the quick sample, then one of each part."""
     config = replace(bits.config("ppmc104"), name=f"{bits.BOARD}-shipped")
     items = [replace(item, config=config) for item in board.items()]
     tests = [GateTest(gates.BITS, _tagged(item, gates.BITS), quick=True) for item in items]

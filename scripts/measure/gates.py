@@ -31,15 +31,15 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job, Result
 from scripts.measure.campaign.run import run
 from scripts.measure.gate_suite import GateTest, chosen, everything, left_out
 
-# If at most this number of tests run, a failing test runs again with waves, which needs another build.
+# If at most this number of tests run, a failing test runs again with waves, which requires a build.
 WAVES_UP_TO = 20
-# Wall-clock limit of a simulation in s; a netlist runs at a fifth of the speed of the RTL.
+# Wall-clock limit of a simulation in s; a netlist is simulated at a fifth of the speed of the RTL.
 LIMIT = {"OPENPPMC_WALL_S": "1500"}
 
 
 @dataclass
 class Row:
-    """Row of a netlist in the table. `old` counts tests that passed earlier on the same sources."""
+    """Row of a netlist in the table; `old` is the number of tests that passed earlier on the same sources."""
 
     tests: int = 0
     passed: int = 0

@@ -224,7 +224,7 @@ def locked() -> str:
     for installed in distributions(path=[sysconfig.get_path("purelib")]):
         name = canonicalize_name(installed.metadata["Name"])
         version = versions.get(name, "no version")
-        # Before Python 3.12, venv installs its own setuptools.
+        # Before Python 3.12, venv installs a setuptools of its own, which is not checked.
         if installed.version != version and name != "setuptools":
             found.append(f"{name} {installed.version} is installed, requirements.lock has {version}")
     return "\n".join(sorted(found))
@@ -258,7 +258,7 @@ def settings(part: Row) -> Iterator[tuple[str, dict[str, int | str]]]:
             params: dict[str, int | str] = {"CLK_HZ": clk_hz, "TIMING": timing}
             label = f"{part.name} {clk_hz / 1e6:g} MHz {timing}"
             if "PHASE_IDLE" in known:
-                # These sets cover both levels with both timings without doubling the number of runs.
+                # These sets combine both levels with both timings, without doubling the number of runs.
                 params["PHASE_IDLE"] = (index + (timing == "FAST")) % 2
                 label += f" PHASE_IDLE={params['PHASE_IDLE']}"
             yield label, params
@@ -301,7 +301,7 @@ def checks() -> list[Check]:
 
 
 def guarded(check: Check) -> str:
-    """Return the findings of a check; a ProjectError also counts as a finding."""
+    """Return the findings of a check; the message of a ProjectError is a finding, too."""
     try:
         return check.run()
     except ProjectError as error:

@@ -26,7 +26,7 @@ CLK_SUFFIX = re.compile(r"\b(?:parameter|localparam)\b[^;=]*?\b(\w+Clk)\s*=")
 PACKAGE = re.compile(r"^package (\w+);(.*?)^endpackage", re.MULTILINE | re.DOTALL)
 TYPE = re.compile(r"(?:\btypedef\b[^{;]*|\}\s*)\b(\w+_[te])\s*;")
 PARALLEL = {"ppmc2104_pkg", "ppmc_code_pkg"}
-"""Packages that may define the same types, because no file imports both."""
+"""Packages that may define types with the same names, because no file imports both."""
 VAGUE = re.compile(r"(?:it|the same|this one|what|when|where)[.;]?$|and\b", re.IGNORECASE)
 
 

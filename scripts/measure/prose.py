@@ -24,7 +24,7 @@ from cocotb_tests.harness.project import ROOT, console, run
 
 WORDS = ROOT / "lint" / "prose.txt"
 NEUTRAL = "X"
-"""Text that replaces code within a sentence."""
+"""Word that represents code within a sentence."""
 SLASHES = {".sv", ".svh", ".c", ".h", ".cpp", ".ts", ".tsx", ".mjs", ".css"}
 HASHES = {".yml", ".toml", ".sh", ".txt"}
 LONGEST = 30
@@ -74,7 +74,7 @@ def rows() -> tuple[Row, ...]:
 
 
 def _blocks(kind: str, file: str, lines: list[tuple[int, str]]) -> Iterator[Item]:
-    """Group lines with consecutive numbers; an empty line ends a group."""
+    """Yield an item for each group of lines with consecutive numbers; an empty line ends a group."""
     group: list[tuple[int, str]] = []
     for number, text in [*lines, (-1, "")]:
         if group and (number != group[-1][0] + 1 or not text.strip()):
@@ -200,7 +200,7 @@ def all_items() -> list[Item]:
 
 
 def findings(item: Item) -> Iterator[tuple[str, str]]:
-    """Yield the findings in a passage as (level, line of text for the user)."""
+    """Yield each finding in a passage as (level, line of text for the user)."""
     for at, line in enumerate(item.lines):
         for row in rows():
             for match in row.pattern.finditer(line):

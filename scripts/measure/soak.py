@@ -26,7 +26,7 @@ from scripts.measure.campaign.run import run
 
 ALL = "all"
 BLOCK, LARGE_BLOCK = 25, 250
-"""Number of seeds in a job: usually, and with LARGE or more seeds (fewer and longer jobs)."""
+"""Number of seeds in a job: with fewer than LARGE seeds, and with LARGE or more (longer jobs)."""
 LARGE = 10_000
 
 
@@ -69,7 +69,7 @@ def some(what: tuple[str, int, int]) -> Result:
 
 
 def blocks(first: int, count: int) -> Iterator[tuple[int, int]]:
-    """Yield (first seed, number of seeds) of each job. Boundaries are multiples of the job size."""
+    """Yield (first seed, number of seeds) of each job. Jobs begin at multiples of the job size."""
     size, end = (LARGE_BLOCK if count >= LARGE else BLOCK), first + count
     while first < end:
         last = min(end, (first // size + 1) * size)

@@ -52,7 +52,7 @@ def children(node: Any) -> Iterator[Any]:
 
 
 def found(node: Any, *kinds: str) -> Iterator[Any]:
-    """Yield the nodes of these kinds from a node on; nodes inside a found one are not searched."""
+    """Yield the nodes of these kinds in a node, itself included; found nodes are not searched further."""
     if kind(node) in kinds:
         yield node
         return

@@ -1,9 +1,9 @@
 """Compare each table of the RTL in synthesis and in simulation, word by word.
 
 The front end of the synthesis evaluates `initial` blocks itself. For a function with branches in such a
-block, it produced wrong values in three tables, and simulations of the RTL could not detect this. `make lint`
-runs this check. ``python -m scripts.measure.tables FOLDER`` makes the netlists in a separate process, because
-yosys needs one.
+block, it has produced wrong values in three tables, which simulations of the RTL could not detect. `make
+lint` runs this check. ``python -m scripts.measure.tables FOLDER`` makes the netlists in a separate process,
+because yosys needs one.
 """
 
 from __future__ import annotations

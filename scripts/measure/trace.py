@@ -33,7 +33,7 @@ Record = Mapping[str, Any]
 
 @dataclass
 class Group:
-    """All runs of one test function: its configurations, and the numbers of runs and passes."""
+    """All runs of one test function: its configurations, number of runs, number of passed runs."""
 
     name: str
     configs: set[str] = field(default_factory=set)
@@ -69,7 +69,7 @@ class Trace:
 
 
 def _part(record: Record) -> str:
-    """Return the part to whose manual a record refers, if the rules of the record do not name the part."""
+    """Return the part to whose manual a record refers, for records whose rules do not name the part."""
     row = PARTS.get(record["part"])
     return row.folder if row else str(record["part"])
 

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "versions"
 EXTRAS = "[decode,epics,ophyd,plot]"
 TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
-"""Pattern of the lines in requirements.lock for packages that only the tests need."""
+"""Pattern of lines in requirements.lock: packages that only the tests need."""
 TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")
 QUICK = (
     "tests/common/host/test_arguments.py",
@@ -33,7 +33,7 @@ FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executabl
 
 
 class VersionsError(Exception):
-    """There is no suitable Python, or a step has failed; the text is one line."""
+    """There is no suitable Python, or a step has failed; the message is one line."""
 
 
 def pythons(names: Iterable[str]) -> list[tuple[tuple[int, int], str]]:

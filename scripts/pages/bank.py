@@ -36,7 +36,7 @@ SESSION_AXES = 32
 RAMP = (0x0A, 0x63, 0x13, 0x64, 0x00)  # initialisation bytes: 5 to 25 kpps within 100 pulses
 BITS = ((ERR, "ERR"), (BUSY, "BUSY"), (IBF, "IBF"), (OBF, "OBF"))
 Lines = list[tuple[str, int]]
-"""Explanations of a session, each with the number of accesses from the session's start to its end."""
+"""Explanations in a session, each with the number of accesses before it."""
 
 
 def meaning(one: Access) -> str:
@@ -160,7 +160,7 @@ def group_session() -> str:
 
 
 def cost_table() -> str:
-    """Return the table of size and clock rate by the number of axes."""
+    """Return the table of size and clock rate for each number of axes."""
     return size_page.bank(figures.read())
 
 
@@ -183,7 +183,7 @@ def axis_cost() -> Figure:
     for title, comb in others.items():
         axes.axhline(comb, color=GREY, linewidth=0.8, linestyle=(0, (4, 3)))
         near = any(0 < other - comb < 0.1 * comb for other in others.values())
-        # If two lines are close together, the name of the lower line is below this line.
+        # If two lines are close together, write the name of the lower one below it.
         side = "top" if near else "bottom"
         axes.text(73, comb, f"{title}: {comb}", va=side, ha="right", size=7.5, color="#444444")
     axes.set(xscale="log", yscale="log", xlabel="axes", ylabel="COMB of an axis, ECP5")

@@ -71,7 +71,7 @@ def moves(rows: Sequence[Sequence[int]]) -> str:
     found = []
     for count, start, stop, top, coefficient in rows:
         gaps = move(count, L=start, S=stop, v=top, u=coefficient, o=coefficient).intervals
-        # The speed is that of two intervals together, because a single interval is rounded to 1 µs.
+        # Compute the speed from two intervals together, because a single interval is rounded to 1 µs.
         shortest = min(a + b for a, b in pairwise(gaps))
         fastest = _number(round(2 * CLK_HZ / shortest))
         limits, both = f"{start}, {stop}, {_number(top)}", f"{coefficient}, {coefficient}"
@@ -157,7 +157,7 @@ CASES: tuple[Callable[[], Awaitable[tuple[str, int]]], ...] = (_start, _first_st
 
 
 def times() -> str:
-    """Return a table of latencies in cycles, from the last stop-bit sample or from a pin's change."""
+    """Return a table of latencies in cycles, counted from the last stop-bit sample or from a pin's change."""
     head = f"This core, at {CLK_HZ // 1_000_000} MHz, in cycles (from the stop bit or the pin):"
     return f"{head}\n\n{table(['', 'cycles'], [on_model(case()) for case in CASES])}"
 
@@ -171,7 +171,7 @@ CURRENTS = (400, 1000, 1900)
 SLOW = tuple(
     Case(mstep=mstep, full=full, scomp=300, periods=1) for mstep in (16, 2, 0) for full in (40, 100, 200)
 )
-"""With factor P = 300, the lead angle is 0 units, so these angles include the zeros of both references."""
+"""With factor P = 300, the lead angle is 0, so these angles include the zeros of both references."""
 RUNS = (
     *(Case(cur=cur, full=full, periods=1) for full in (500, 800, 1000) for cur in CURRENTS),
     *(Case(cur=cur, full=1000, emf=6.0, periods=1) for cur in CURRENTS),
@@ -235,7 +235,7 @@ def _percent(share: float) -> str:
 
 
 def _left(both: tuple[Waves, Waves]) -> str:
-    """Return the current that remains at a reference of 0 after positive and after negative currents."""
+    """Return the currents that remain at a reference of 0: after a positive and after a negative current."""
     if not any(0 in found.reference for found in both):
         return ""
     above, below = zip(*(residual_current(found) for found in both), strict=True)

@@ -22,7 +22,7 @@ from scripts.pages.pictures.plots import BLUE, COLOURS, GREEN, GREY, RED
 from scripts.pages.pictures.recorded import Levels, Row, Schedule, Start, columns_of, record, wave
 
 F_HZ = 1_000_000
-CLK = 16  # number of cycles in a tick
+CLK = 16  # number of cycles of a tick
 ANSWERS = 0x10  # CSR: irq_n reports answers
 REGISTERS: dict[object, int] = {"CSR": CSR, "RAR": RAR, "DRR": DRR, "WCR": WCR, "WAR": WAR, "DWR": DWR}
 BUILDS = {"F16": F16, "F50": F50, "D16": D16}
@@ -110,7 +110,7 @@ def changed(block: str, number: int = 0, change: str = "") -> Train:
 
 
 def curves(curves: Sequence[Mapping[str, Any]]) -> Figure:
-    """Draw accelerations: speed over time, and pulses of each stage (not for free curves)."""
+    """Draw accelerations: speed over time, and, except for free curves, pulses of each stage."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.3), layout="constrained")
     for entry in curves:
         of = _table(entry["table"])
@@ -128,7 +128,7 @@ def curves(curves: Sequence[Mapping[str, Any]]) -> Figure:
 
 
 async def _returned(switch: int, free: int, out: int) -> list[int]:
-    """Return the pulses of a zero return with `out` pulses in phase 1; for the switch see `zero_return`."""
+    """Return the pulses of a zero return with `out` pulses in phase 1; see also `zero_return`."""
     host = await Host.start(OnModel(), *blocks.TF)
     await host.ask("03 04 11 00 0000")
     await host.pulse(switch)
@@ -169,7 +169,7 @@ def zero_return() -> Figure:
 
 
 async def _to_answer(mode: Config, block: str, *setting: str) -> int:
-    """Return the cycles from a block's header to its answer. With `setting`, it is sent at pulse 2."""
+    """Return the cycles from a block's header to its answer. With `setting`, the block is sent at pulse 2."""
     host = await Host.start(OnModel(mode), *setting)
     await host.write(CSR, ANSWERS)
     if setting:
@@ -207,8 +207,8 @@ def times(modes: Mapping[str, str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table of events with their times in several builds of the part.
 
     Args:
-        rows: name of the event, event that ends the time (a key of MEASURES), the measured block, then the
-            blocks that are sent before the measured block.
+        rows: name of the event, key in MEASURES of the event that ends the time, the measured block, then the
+            blocks that are sent before it.
     """
     found = []
     for text, end, *blocks_ in rows:

@@ -1,4 +1,4 @@
-"""Kinds of tables and pictures for docs/stmc/figures.yml, from a host on the golden model of the STMC."""
+"""Kinds of tables and pictures for docs/stmc/figures.yml, from the golden model of the STMC with a host."""
 
 from __future__ import annotations
 
@@ -108,12 +108,12 @@ class Bench:
         return [t for t, _ in self.chip.log.of("s", self.mark)]
 
     def in_gap(self, gap: int) -> None:
-        """Run to a point within gap i between two steps of the last motion."""
+        """Run to a point within the gap with number `gap` between the steps of the last motion."""
         self.until(lambda: len(self.steps()) > gap)
         self.t = self.chip.now + 300
 
     def start(self, command: str) -> int:
-        """Send a motion command and count steps from it on; return the edge that `send` returns."""
+        """Send a motion command, and count steps from then on; return the edge that `send` returns."""
         self.mark = self.t
         return self.send(command)
 
@@ -136,7 +136,7 @@ def play(
     """Run a move with the internal clock; return its result.
 
     Args:
-        gap: gap in which `event` (a method of Bench with arguments) happens; -1: before step 0.
+        gap: gap in which `event` (name and arguments of a method of Bench) is executed; -1: before step 0.
     """
     bench = Bench()
     bench.init(ramp=ramp)
@@ -174,7 +174,7 @@ def move(command: str, cause: int | None = None, shown: int | None = None, **cas
 
 
 def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
-    """Return gaps as text. More than three equal gaps are 5×8; long lists lack their middle."""
+    """Return gaps as text; `5×8` means five gaps of 8, and long lists lack their middle."""
     words = []
     for value, group in groupby(gaps):
         count = len(list(group))
@@ -187,7 +187,7 @@ def _gaps(gaps: Sequence[int], limit: int = 30) -> str:
 def moves(cases: Sequence[Sequence[Any]]) -> str:
     """Return a table of worked moves.
 
-    Each row has a name, ramp and command, then the text, gap and event of a disturbance, if any.
+    A row has a name, ramp and command and, if the move is disturbed, text, gap and event of the disturbance.
     """
     heads = [
         "No.",
@@ -211,7 +211,7 @@ def moves(cases: Sequence[Sequence[Any]]) -> str:
 
 
 def ramps(ramps: Sequence[Sequence[int]], long: Sequence[int], some: Sequence[int]) -> str:
-    """Return a table of divisors: for short ramps at all levels, for a long ramp at some levels."""
+    """Return a table of divisors: short ramps at all levels, and a long ramp at some levels."""
     rows = []
     for ramp in (*ramps, long):
         values = [rate + 1 for rate in profile(*ramp).rates()]
@@ -263,7 +263,7 @@ def motion_time(timing: str, which: str, command: str, stop: bool = False) -> in
 
 
 def init_time(timing: str, which: str, ramp: Sequence[int]) -> int:
-    """Return the cycles from an initialisation's last byte until phases are on or bytes accepted."""
+    """Return the cycles from an initialisation's last byte until phases are on or bytes are accepted."""
     bench = Bench(timing)
     sent = bench.init(ramp=ramp)
     if which == "phases":
@@ -275,7 +275,7 @@ def times(inits: Sequence[Sequence[Any]], motions: Sequence[Sequence[Any]]) -> s
     """Return a table of times with both timings, at 16 MHz with the internal clock.
 
     Args:
-        inits, motions: text, and arguments of `init_time` and `motion_time`.
+        inits, motions: rows with a text and the arguments of `init_time` or `motion_time`.
     """
     measured = [(init_time, row) for row in inits] + [(motion_time, row) for row in motions]
     rows = [
@@ -307,7 +307,7 @@ def _ready(code: int, **parameters: object) -> Bench:
 
 
 def moved(command: str, code: int = 0x0A) -> Start:
-    """Return the model during a move; the base of the diagram is the edge of the last step, still to come."""
+    """Return the model before the last step of a move; the edge of this step is the base of the diagram."""
     ahead = _ready(code)
     ahead.start(command)
     last = ahead.end().steps[-1]

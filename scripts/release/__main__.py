@@ -24,7 +24,7 @@ SLOW = ("bitstreams", "site")
 
 
 Job = Callable[[Release, Path, Path], None]
-"""A function that writes its files to the first folder and uses the second folder for its work."""
+"""Function that writes files to the first folder and uses the second folder for temporary files."""
 
 
 def jobs(say: Callable[[str], None]) -> dict[str, Job]:
@@ -50,7 +50,7 @@ def jobs(say: Callable[[str], None]) -> dict[str, Job]:
 
 
 def build(release: Release, skip: set[str], dist: Path = DIST, scratch: Path = SCRATCH, made_by=jobs) -> None:
-    """Run all steps in a folder in `scratch`. When all steps are complete, this folder becomes `dist`."""
+    """Run all steps in a folder in `scratch`. After the last step, this folder becomes `dist`."""
     shutil.rmtree(scratch, ignore_errors=True)
     out = scratch / "dist"
     out.mkdir(parents=True)

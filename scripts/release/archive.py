@@ -14,7 +14,7 @@ MODE = 0o644
 
 
 def files_below(folder: Path) -> dict[str, Path]:
-    """Return name in the archive -> file, for all files below a folder."""
+    """Return all files below a folder, by their names in the archive."""
     found = (path for path in folder.rglob("*") if path.is_file())
     return {path.relative_to(folder).as_posix(): path for path in found}
 

@@ -21,7 +21,7 @@ def _run(*words: str, folder: Path) -> None:
 
 
 def set_version(tree: Path, version: str) -> None:
-    """Write a version into a copy of the package, because a trial has another version."""
+    """Write a version into a copy of the package, because the version of a trial is different."""
     path = tree / "openppmc" / "__init__.py"
     line = f'__version__ = "{__version__}"'
     text = path.read_text(encoding="utf-8")

@@ -31,7 +31,7 @@ def pinned(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _packages() -> Iterator[Component]:
-    """Yield the packages of requirements.lock; the package's own metadata lists its dependencies."""
+    """Yield the packages of requirements.lock; the metadata of each package names its dependencies."""
     for name, version in pinned((ROOT / "requirements.lock").read_text(encoding="utf-8")):
         purl = PackageURL("pypi", name=name.lower().replace("_", "-"), version=version)
         yield Component(

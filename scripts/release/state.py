@@ -22,7 +22,7 @@ class Release:
         version: version number without the letter v.
         commit: hexadecimal hash of the commit.
         epoch: time of the commit in s; every file of the release has this time.
-        missing: one sentence for each missing part, for the notes.
+        missing: one sentence for each missing file, for the notes.
         only: names of the built bitstreams; all bitstreams if it is empty.
         trial: True if the release must not be published; its version ends in +trial.
     """
@@ -54,9 +54,10 @@ def git(*words: str) -> str:
 def section(changelog: str, version: str, trial: bool = False) -> str:
     """Return the text below the newest heading of a changelog.
 
-    The call raises ProjectError unless the heading is that of this version.
+    The call raises ProjectError unless this heading names the version.
 
-    A section [Unreleased] without text may be above it. In a trial, it may have a text, which is returned.
+    A section [Unreleased] without text may precede it. In a trial, this section may have text, which is
+    returned.
     """
     found = list(_HEADING.finditer(changelog))
     ends = [match.start() for match in found[1:]] + [len(changelog)] * bool(found)
@@ -103,7 +104,7 @@ def current_release(only: tuple[str, ...] = (), trial: bool = False) -> Release:
         tagged = git("rev-parse", f"{name}^{{commit}}") if git("tag", "-l", name[10:]) else ""
         check_tag(__version__, commit, tagged)
     notes = section(CHANGELOG.read_text(encoding="utf-8"), __version__, trial)
-    # A local version (PEP 440), which PyPI rejects.
+    # This is a local version (PEP 440), which PyPI rejects.
     version = f"{__version__}+trial" if trial else __version__
     return Release(version, commit, int(git("log", "-1", "--format=%ct")), notes, only, trial=trial)
 

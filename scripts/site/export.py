@@ -26,7 +26,7 @@ LENGTHS = {
     "window": {"lead": 1, "strobe": 2, "readStrobe": 6, "gap": 3},
     "block": {"lead": 0, "strobe": 3, "readStrobe": 5, "gap": 3},
 }
-"""Number of cycles in each phase of an access. The players of tests/common/web use the same number."""
+"""Numbers of cycles of the phases of an access. The players in tests/common/web use the same numbers."""
 PLAYGROUND = wasm.OUT / "playground"
 
 

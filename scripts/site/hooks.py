@@ -44,7 +44,7 @@ def button(source: str, part: str, run: str, words: str) -> str:
 
 
 def run_links(source: str, markdown: str) -> str:
-    """Return a page with links for session comments, and after the titles of manuals and overview."""
+    """Return a page with links in place of session comments, and after the titles of manuals and overview."""
     if source == START:
         title, _, rest = markdown.partition("\n")
         return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
@@ -68,7 +68,7 @@ def run_links(source: str, markdown: str) -> str:
 def on_post_page(output: str, page: Any, **_: Any) -> str:
     """Load the shim of the search from this site instead of another host. MkDocs calls this for each page.
 
-    The row of each rule gets an anchor, to which the log of the playground links. The body of the playground
+    The row of each rule gets an anchor for links from the log of the playground. The body of the playground
     has a class from the first paint on, so that nothing moves while the page loads.
     """
     if page.file.src_uri == "playground.md":

@@ -33,7 +33,7 @@ def node(*command: str, folder: Path = SITE) -> None:
 
 
 def packages(folder: Path) -> None:
-    """Install the packages of a package-lock.json once for each of its states.
+    """Install the packages of a package-lock.json unless this was already done for its present content.
 
     Only one process at a time installs: `npm ci` empties node_modules first, so another process would find an
     incomplete folder.
@@ -47,7 +47,7 @@ def packages(folder: Path) -> None:
 
 @cache
 def playground() -> Path:
-    """Build all that has changed; return the folder. Several processes may call this function."""
+    """Build what has changed; return the folder. Several processes may call this at the same time."""
     with locked(wasm.OUT / "playground.lock"):
         return _made()
 

@@ -31,9 +31,7 @@ STMC = {
     0x80: "FIN-01", 0x81: "INP-01", 0x82: "OUT-01", 0x83: "REM-01",
     2: "SGL-01", 3: "MOV-02", 4: "MOV-01", 5: "MOV-01", 6: "MOV-02", 7: "RUN-03",
 }  # fmt: skip
-"""IDs of rules without the prefix of the part: by the kind of the command, by the code of a read command (of
-the PPMC-104), and by the operation.
-"""
+"""IDs of rules without a prefix, by kind of command, PPMC-104 code of a read, or operation."""
 TABLES = {"ppmc104": ("P104", SINGLE), "ppmc2104": ("P2104", DOUBLE), "stmc": ("STMC", STMC)}
 TABLES["bank"] = TABLES["ppmc104"]
 STATUS = {"ppmc104": "P104-STA-01", "ppmc2104": "P2104-STA-01", "stmc": "STMC-ST-02"}
@@ -53,7 +51,7 @@ def texts(part: str) -> dict[str, str]:
 
 
 def rule_of(part: str, command: Command, meaning: int) -> str:
-    """Return the ID of a command's rule; `meaning` is the PPMC-104 code of a read."""
+    """Return the ID of a command's rule; for a read, `meaning` is its code on the PPMC-104."""
     prefix, table = TABLES[part]
     kind = {Kind.OPERATION: command.operation, Kind.READ: meaning}.get(command.kind, command.kind)
     return f"{prefix}-{table[kind]}"

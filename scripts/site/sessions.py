@@ -4,8 +4,8 @@ A chapter of docs/<part>/examples.md that can be run has a comment after its tit
 
     <!-- run: after 1; @; until int_n 0; @ -->
 
-`@` represents the next block of the chapter (or the lines of a block that were not used yet), `@2` its next
-two lines, and `after N` the statements of chapter N. All other words are statements (`script`).
+`@` represents the next block of the chapter, or the rest of a block; `@2` represents the next two lines of
+the block, and `after N` the statements of chapter N. All other words are statements (`script`).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _line(line: str) -> str:
 
 
 def _block_line(line: str) -> str:
-    """Return a line of the PPMC-312's page as statements. Two spaces in the line precede its explanation."""
+    """Return a line of the PPMC-312's page as statements; its explanation follows two spaces."""
     words, _, comment = line.strip().partition("  ")
     kind, _, rest = words.partition(" ")
     if kind == "pin":

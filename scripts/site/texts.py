@@ -28,7 +28,7 @@ KINDS = {
     Kind.AUX_ON: "AUX on",
     Kind.AUX_OFF: "AUX off",
 }
-"""Meanings of the commands that no demo sends, and of command codes with don't-care bits."""
+"""Meanings of commands that no demo sends, and of codes with don't-care bits."""
 MOVE = "move flags:1 rate:2"
 FORMS = {
     Code312.INITIAL: "table flags:1 start rate RS:2 high-speed rate RH:2 pulses NA:3"
@@ -105,7 +105,7 @@ REGISTERS = {
     for register, names in BANK_REGISTERS.items()
 }
 Field = tuple[str, int, int]
-"""Data of a command: name, number of bytes, and the number that is added before the value is displayed."""
+"""Data of a command: name, number of bytes, and a number that is added to the displayed value."""
 
 
 def _fields(command: Command, words: CommandDecoder) -> list[Field]:
@@ -147,7 +147,7 @@ def _code(part: str, command: Command, words: CommandDecoder) -> dict[str, objec
 
 
 def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
-    """Return the tables of a part: codes, status, answers, and the meanings of its host's accesses."""
+    """Return the tables of a part: codes, status, answers, meanings of the accesses of its host."""
     if part == "ppmc312":
         found = blocks()
     elif part == "pmc006":

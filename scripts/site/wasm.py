@@ -40,11 +40,11 @@ SAME_EVERYWHERE = "-ffile-prefix-map={}=."
 """
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
 MOST = 200 * 1024
-"""Maximum size of a packed module in bytes."""
+"""Largest permitted size of a packed module in bytes."""
 
 
 def _bit(part: WebPart, pin: str, table: list[tuple[str, int]]) -> str:
-    """Return C++ for a bit of a port: its word, and its place in the word; {-1, 0} without a pin."""
+    """Return C++ for a bit of a port: {word, place in this word}; {-1, 0} without a pin."""
     if not pin:
         return "{-1, 0}"
     port, place = part.part.locate(pin)
@@ -147,7 +147,7 @@ def _compile(jobs: list[tuple[Path, Path]], includes: list[Path], folder: Path, 
 
 
 def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
-    """Call `make`; several processes may do so at the same time."""
+    """Call `make` with a lock, so that several processes may use this function at the same time."""
     with locked(OUT / "build.lock"):
         return make(name, native, bound)
 

@@ -1,6 +1,6 @@
 """The parts of the playground, with their builds and the devices at their pins. Source: docs/playground.md.
 
-Each part has one build, whose parameters are those for which the sessions of the manuals were written.
+Each part has one build, with the parameters for which the sessions of the manuals were written.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ class WebPart:
     Attributes:
         bus: kind of host (site/src/engine).
         idle: levels of the straps of the part.
-        busy: status bits that a host waits for.
+        busy: status bits that a host polls until they are 0.
         bits: names of the bits in the status register, bit 7 first.
         straps: pins with a button in addition to the switches.
         hint: example of an input, which the page shows to the user.
-        phase_on: level of an energised winding.
+        phase_on: level of the pin of an energised winding.
         settle: cycles from the reset to the first access.
         first: number that the first axis has in statements.
     """
@@ -159,7 +159,7 @@ WEB_PARTS: dict[str, WebPart] = {
             bits=("0", "0", "0", "stalled", "reduced", "EXT2", "EXT1", "busy"),
             config=F8B,
             settle=1200,
-            # The EEPROM has no supply here. Thus, its data line is low, and the part boots immediately.
+            # The EEPROM has no supply here, so its data line is low, and the part boots immediately.
             idle={"sda_i": 0},
         ),
         WebPart(

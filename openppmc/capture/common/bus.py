@@ -9,7 +9,7 @@ from .part_decoder import Accesses, Wires
 from .signals import Channel, numpy, slices
 
 Strobe = Callable[[Mapping[str, int]], tuple[bool, bool]]
-"""Returns, for levels of the pins, whether they form a write strobe and whether they form a read strobe."""
+"""Function that returns, for levels of the pins, (True for a write strobe, True for a read strobe)."""
 
 
 def accesses(
@@ -56,7 +56,7 @@ def accesses(
         turn = np.empty(len(kinds), bool)
         turn[:1], turn[1:] = kinds[:1] != last, kinds[1:] != kinds[:-1]
         last = int(kinds[-1]) if len(kinds) else last
-        # The two lowest bits of an entry hold the kind of the strobe, the bits above them hold its time.
+        # The two lowest bits of an entry contain the kind of the strobe; all higher bits contain its time.
         turned = np.concatenate((before, times[turn] << 2 | kinds[turn]))
         before = turned[-1:]
         whole = np.flatnonzero(turned[:-1] & 3)
@@ -75,7 +75,7 @@ def accesses(
 
 
 def _bus(wires: Wires, bus: str) -> dict[bool, Channel]:
-    """Return the data bus for writes (key True) and for reads (key False).
+    """Return the channel of the data bus for writes (key True) and for reads (key False).
 
     The chip uses one bus for both, the core has a separate bus for each.
     """

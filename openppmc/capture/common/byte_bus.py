@@ -41,7 +41,7 @@ def byte_part(
     Args:
         model: inputs, outputs, widths of the golden model.
         strobe_pins: pins that form a strobe.
-        decoder: decodes bytes to text; or a function that returns the decoder of a capture.
+        decoder: decoder of bytes to text, or a function that returns the decoder for a capture.
         code: decodes a command byte.
         levels: returns the levels of the strobe pins and of the address during an access.
         address: port whose bit 0 selects the register.

@@ -16,12 +16,12 @@ GAP = 2.0
 
 
 class Character(NamedTuple):
-    """Character.
+    """Character on the wire.
 
     Attributes:
-        begin: ps of the start bit.
-        end: ps of the stop bit.
-        byte: value of the character, `None` without a stop bit.
+        begin: time in ps at which the start bit begins.
+        end: time in ps at which the stop bit ends.
+        byte: value of the character; `None` if its stop bit is missing.
     """
 
     begin: int
@@ -30,7 +30,7 @@ class Character(NamedTuple):
 
 
 def characters(channel: Channel, rate: float) -> list[Character]:
-    """Return all characters. A start bit that is shorter than half a bit is ignored."""
+    """Return all characters on the wire. A start bit that is shorter than half a bit is ignored."""
     np = numpy()
     bit = SECOND / rate
 
@@ -52,7 +52,7 @@ def characters(channel: Channel, rate: float) -> list[Character]:
 
 
 def rate_of(channel: Channel, rates: Sequence[float], what: str) -> float:
-    """Return the line rate at which the largest fraction of the characters is correctly framed.
+    """Return the line rate, of `rates`, at which the largest fraction of the characters is correctly framed.
 
     Raises:
         CaptureError: no rate matches.

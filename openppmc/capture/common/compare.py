@@ -3,8 +3,8 @@
 The inputs of the capture drive the model, and each output edge is compared.
 
 Three effects shift the edges slightly: the sampling, the phase of the base clock of the original chip, and
-its processing times. Two edges count as the same edge if their distance is at most `tolerance`. The crystals
-of chip and analyser differ by some ppm. This difference is measured in the moves and compensated.
+its processing times. Two edges are treated as the same edge if their distance is at most `tolerance`. The
+crystals of chip and analyser differ by some ppm. This difference is measured in the moves and compensated.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ MOST_PPM = 1000
 MOST_EDGES = 10_000
 """Largest number of edges that the model stores as objects."""
 STEP = 1_000_000
-"""Number of cycles for which one call runs the model."""
+"""Largest number of cycles for which one call runs the model."""
 CLK_HZ = 16_000_000
 WINDOW = 256
 """Largest number of edges of the chip, and of the model, that are matched one by one after a difference."""
@@ -48,8 +48,8 @@ class Difference:
 
     Attributes:
         t: time in ps from the beginning of the capture.
-        steady: False if the difference is an edge. True if it is a stable level that differs from that of the
-            model.
+        steady: False if the difference is an edge; True if it is a stable level that differs from the level
+            of the model.
     """
 
     pin: str
@@ -78,7 +78,7 @@ class Differences(Sequence[Difference]):
         self._pins: list[str] = []
 
     def add(self, one: Difference) -> None:
-        """Append a difference at time `t`."""
+        """Append a difference; it may be earlier than those already stored."""
         if self._pins[-1:] != [one.pin]:
             self._pins.append(one.pin)
         self._times.append(one.t)
@@ -153,7 +153,7 @@ def compare(decoded: Decoded, tolerance: int) -> Result:
     """Compare a capture with the golden model.
 
     Args:
-        tolerance: largest distance in ps at which two edges count as a pair.
+        tolerance: largest distance in ps of two edges that are treated as a pair.
 
     Raises:
         CaptureError: the capture contains neither a reset nor an initialisation.
@@ -186,10 +186,10 @@ def other_timing(decoded: Decoded, result: Result, tolerance: int) -> str:
 
 
 def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
-    """Return two kinds of times at which a comparison begins, and whether there is a reset.
+    """Return when the model starts, when the comparison of each axis starts, and whether there is a reset.
 
-    The first item is the time from which the model runs. The second item maps each axis to the time from
-    which its edges are compared. The third item is True if the capture contains a reset.
+    The second item contains a time for each axis; key 0 is the default. The third item is True if the capture
+    contains a reset.
     """
     reset = decoded.wires.ports.get("rst_n")
     if reset is not None and len(reset):
@@ -215,16 +215,16 @@ def _begin(decoded: Decoded) -> tuple[int, dict[int, int], bool]:
 
 @dataclass
 class _ModelEdges:
-    """Outputs of the model; times in ps of the capture."""
+    """Outputs of the model; times in ps on the time base of the capture."""
 
     outputs: dict[str, Channel]
 
 
 def _run(decoded: Decoded, begin: int, ratio: float) -> _ModelEdges:
-    """Drive a new model with the inputs, and return its outputs.
+    """Drive a new model with the captured inputs, and return its outputs.
 
     Args:
-        ratio: time of the model divided by time of the capture.
+        ratio: ratio of the model's time to the capture's time.
     """
     decoder, wires = decoded.decoder, decoded.wires
     straps = decoder.straps(wires)
@@ -320,8 +320,8 @@ class _Outputs:
 def _clk_hz(decoded: Decoded) -> int:
     """Return the clock frequency of the model.
 
-    The frequency is that of the map, else that of a captured `clk`, else a high default. With a captured
-    `clk`, captures of our own cores match exactly.
+    It is the frequency in the map; without it, the frequency of the captured `clk`; without that pin, a high
+    default. With a captured `clk`, captures of this project's cores match exactly.
     """
     if "CLK_HZ" in decoded.wires.params:
         return int(str(decoded.wires.params["CLK_HZ"]))
@@ -354,14 +354,14 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 
 
 def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
-    """Return the time of the model divided by the time of the capture.
+    """Return the ratio of the time of the model to the time of the capture.
 
     The ratio is measured with long moves that both sides contain. Without such moves, it is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
     theirs = decoded.decoder.trains(type(wires)(played.outputs, both, wires.end, wires.sample, wires.params))
-    # The captured time of each end of a move may be wrong by one sample, so a smaller difference is ignored.
+    # The captured time of each end of a move may be wrong by one sample, so smaller differences are ignored.
     slack = 4 * max(wires.sample, SECOND // _clk_hz(decoded))
     alike = []
     for a, b in zip(_since(decoded.trains, begin), _since(theirs, begin), strict=False):
@@ -372,12 +372,12 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 
 
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
-    """Return the time of the model divided by the time of the capture.
+    """Return the ratio of the time of the model to the time of the capture.
 
     The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
 
     Args:
-        alike: pairs of lengths in ps, one pair per common move: in the capture, in the model.
+        alike: for each common move, its length in the capture and its length in the model, both in ps.
         slack: possible error of a length in ps.
     """
     if not alike:
@@ -392,7 +392,7 @@ def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
 
 
 def _middle(rows: list[tuple[float, int]]) -> float:
-    """Return the median of weighted values."""
+    """Return the median of weighted values; a row is (value, weight)."""
     ordered = sorted(rows)
     sums = list(accumulate(weight for _, weight in ordered))
     return ordered[bisect_left(sums, sums[-1] / 2)][0]
@@ -550,7 +550,7 @@ def _differs(
 def _constant(
     name: str, chip: Channel, model: Channel, points: Sequence[int], tolerance: int, result: Result
 ) -> None:
-    """Add a difference at the first given time at which chip and model have different stable levels."""
+    """Add a difference at the first time of `points` at which chip and model have different stable levels."""
     np = numpy()
     at = np.array(points, np.int64)
     steady = np.ones(len(at), bool)

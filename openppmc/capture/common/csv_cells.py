@@ -34,7 +34,7 @@ A key is the highest sample rate in Hz at which sigrok uses the unit 10**n ps, i
 
 
 def text_of(data: bytes) -> str:
-    """Return text in UTF-8, or in Latin-1 if it is not UTF-8."""
+    """Decode bytes as UTF-8, or as Latin-1 if they are not valid UTF-8."""
     try:
         return data.decode()
     except UnicodeDecodeError:
@@ -50,7 +50,7 @@ def cells_of(line: str, separator: str) -> list[str]:
 
 
 def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
-    """Return a time or sample number, and True if it is in ps. The result is `None` for other text."""
+    """Return (time or sample number, True if it is a time in ps). The result is `None` for other text."""
     text = text.strip().strip('"')
     if separator != ",":
         text = text.replace(",", ".")
@@ -75,7 +75,7 @@ def time_of(text: str, separator: str) -> tuple[Fraction, bool] | None:
 
 @lru_cache(maxsize=1000)
 def _second(text: str) -> int | None:
-    """Return the seconds of a time stamp without decimals, `None` for an invalid date or time."""
+    """Convert a time stamp without decimals to seconds; return `None` for an invalid date or time."""
     match = _ISO.fullmatch(text)
     if match is None:
         hours, minutes, seconds = map(int, text.split(":"))

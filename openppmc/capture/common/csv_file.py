@@ -1,9 +1,10 @@
 """Captures in CSV with one column per channel.
 
-The files are those of Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and others.
+Such files are written by Saleae Logic, sigrok, DSView, KingstVIS, WaveForms and other programs.
 
 A row is a sample or a change. The first column contains times in a stated unit, ISO time stamps or sample
-numbers. Without this column, a sample rate in the header defines the times. Times count from the first row.
+numbers. Without this column, a sample rate in the header defines the times. All times are relative to the
+first row.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ def read_csv(path: Path) -> Capture:
 
 
 class _Lines:
-    """Iterator over the lines of a file; `rest` yields the remaining lines in blocks."""
+    """Iterator over the lines of a file. The method `rest` yields the remaining lines in blocks."""
 
     def __init__(self, path: Path) -> None:
         self._blocks = _blocks(path)
@@ -59,7 +60,7 @@ class _Lines:
             yield text_of(self._block[self._place : self._next])
 
     def rest(self) -> Iterator[bytes]:
-        """Yield the rest of the file, beginning with the line that was read last."""
+        """Yield the line that was read last, and all lines after it."""
         yield self._block[self._place :]
         self._block = b""
         yield from self._blocks
@@ -115,7 +116,7 @@ class _Table:
         return self._rows(names)
 
     def _head(self) -> list[str]:
-        """Return the names of all columns. On return, the line that was read last is the first row."""
+        """Read the lines up to the first row of the table; return the names of all columns."""
         before: list[tuple[str, int]] = []
         for line in self.lines:
             self.line += 1
@@ -194,7 +195,7 @@ class _Table:
         return None
 
     def _names(self, count: int) -> list[str]:
-        """Return the channel names of the comment; without names, return numbers as names."""
+        """Return the channel names in the comment, or `logic0`, `logic1`, … if their number is wrong."""
         if len(self.column_names) in (count, count - 1):
             return [*self.column_names, "Trigger"][:count]
         return [f"logic{place}" for place in range(count)]
@@ -292,7 +293,7 @@ class _Table:
     def _sampled(self, rows: Rows, scale: _Scale) -> _Scale:
         """Return a scale with the exact times of the samples if the table has rounded times.
 
-        This requires a sample rate in the header. In other cases, the scale is returned unchanged.
+        This requires a sample rate in the header. Otherwise, `scale` is returned unchanged.
         """
         if self.rate is None or not self.timed or self.counted:
             return scale

@@ -52,7 +52,7 @@ class _Block:
     Attributes:
         changed: True for a line whose levels differ from those of the previous line.
         odd: True for a line that does not consist of a time and levels of one character each.
-        levels: levels of the lines that changed.
+        levels: levels of those changed lines that are not odd.
     """
 
     def __init__(self, block: bytes, layout: Layout, level: Column) -> None:
@@ -98,7 +98,7 @@ class _Block:
         marks = cells[:, 1 - timed :: 2] == separator[0]
         if not marks.all() or (self.levels == _NONE).any():
             bad = ~marks.all(axis=1) | (self.levels == _NONE).any(axis=1)
-            # A line that equals the previous one is odd if and only if the previous one is odd.
+            # If a line equals the previous line, either both lines are odd or neither is.
             self.odd |= bad[np.cumsum(self.changed) - 1]
         self.levels = self.levels[~self.odd[self.changed]]
         self.ends = ends - width
@@ -142,7 +142,7 @@ class Rows:
         levels: 0, 1, 2 (unknown).
         count: number of rows that were read so far.
         whole: True if no time has decimals.
-        absolute: True if the times have a unit or a date.
+        absolute: True if the cells with times contain a unit or a date.
     """
 
     def __init__(self, layout: Layout) -> None:
@@ -200,7 +200,7 @@ class Rows:
         kept = np.flatnonzero(block.changed | block.odd)
         levels = np.empty((len(kept), self.layout.channels), np.uint8)
         levels[~block.odd[kept]] = block.levels
-        # Times of the lines that are read one by one, by row.
+        # Times of the lines that are read one by one, by the number of the row.
         exact: dict[int, Fraction] = {}
         skipped = np.zeros(len(block.odd), bool)
         for place in np.flatnonzero(block.odd[kept]).tolist():
@@ -249,7 +249,7 @@ class Rows:
         )
 
     def _row(self, text: str, line: int, cut: bool) -> tuple[list[int], Fraction]:
-        """Read a single line.
+        """Read one line; return its levels and its time.
 
         Args:
             cut: True if the line has no line feed.
@@ -269,7 +269,7 @@ class Rows:
         return levels, self._time(line, cells[0]) if timed else Fraction(0)
 
     def _time(self, line: int, text: str) -> Fraction:
-        """Read a single time. Raises CaptureError."""
+        """Return the time in the text of one cell. Raises CaptureError."""
         found = time_of(text, self.layout.separator)
         if found is None:
             raise self.fail(line, f"{text.strip()[:30]!r} is no time: export it again")
@@ -280,13 +280,13 @@ class Rows:
     def _agree(self, line: int, absolute: bool) -> None:
         if self.absolute is None:
             self.absolute = absolute
-            # The times of such lines are in ps.
+            # Times with a unit or a date are in ps, so they have no decimals.
             self.decimals *= not absolute
         if self.absolute != absolute:
             raise self.fail(line, "times with and without a unit: write all of them alike")
 
     def _times(self, block: _Block, kept: Column, exact: dict[int, Fraction]) -> Column:
-        """Return the times of these lines.
+        """Return the times of the lines with the indices `kept`.
 
         Args:
             exact: times that were read one by one, by row.
@@ -341,7 +341,7 @@ class Rows:
         digits = chars[:, begin:end] - np.uint8(ord("0"))
         if (digits > 9).any() or (chars[:, end:] != chars[0, end:]).any():
             return None
-        # Few of the time stamps begin a new second.
+        # Only few time stamps begin a new second; convert only these one by one.
         fresh = np.ones(len(rows), bool)
         fresh[1:] = (chars[1:, :begin] != chars[:-1, :begin]).any(axis=1)
         seconds = []
@@ -363,9 +363,9 @@ class Rows:
         return found
 
     def _rescale(self, whole: bool) -> None:
-        """Record whether all times are whole numbers.
+        """Store whether all times are whole numbers.
 
-        At the first time with decimals, the unit of `times` is made smaller.
+        When the first time with decimals is read, the unit of `times` is made smaller.
         """
         self.whole &= whole
         layout = self.layout

@@ -13,7 +13,7 @@ from .pulses import Move, moves
 from .signals import US, Bits, Capture, Channel, joined, without_glitches
 
 GLITCH = 30_000
-"""Shortest pulse in ps that is not ignored.
+"""Shortest pulse in ps that is not ignored as a glitch.
 
 Every strobe, bit and pulse of these chips is longer.
 """
@@ -78,9 +78,9 @@ def part_decoder(part: str) -> PartDecoder:
 
 
 def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
-    """Return the end of an error message, "; it has the pins of …".
+    """Return a hint for the end of an error message, "; it has the pins of …".
 
-    It names the parts whose required pins the capture contains.
+    The text names the parts whose required pins the capture contains.
 
     The result is empty in three cases: a pin map names the channels, the capture has all required pins of
     `without`, or it matches no other part.
@@ -99,7 +99,7 @@ def fitting(capture: Capture, chosen: PinMap, without: str) -> str:
 
 
 def _has_pins(capture: Capture, chosen: PinMap, part: str) -> bool:
-    """Return True if the channels have the names of all pins that this part needs."""
+    """Return True if there is a channel for each pin that this part needs."""
     decoder = part_decoder(part)
     try:
         bits = wired(capture, chosen, decoder.pins)
@@ -145,7 +145,7 @@ def decode(capture: Capture, chosen: PinMap, part: str | None = None, glitch: in
     timing = chosen.timing or str(told.pop("TIMING", "DATASHEET"))
     crystal = chosen.crystal or int(str(told.get("XTAL_HZ", 16_000_000)))
     params = {**told, "XTAL_HZ": crystal, **chosen.parameters}
-    # In our own files, each edge has the exact time of an edge of `clk`, not the time of a sample.
+    # In files of this project, each edge has the exact time of an edge of `clk`, not the time of a sample.
     sample = 0 if told else capture.finest
     wires = Wires(ports, bits, capture.end, sample, params)
     try:

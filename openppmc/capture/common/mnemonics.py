@@ -31,7 +31,7 @@ class CommandDecoder:
     operations = OPERATIONS
     causes: Sequence[tuple[int, str]] = CAUSES
     reads: Mapping[int, tuple[str, int]] = {}
-    read_codes: Mapping[int, int] = {}  # codes of the reads that differ from END_STATUS, INPUTS, …
+    read_codes: Mapping[int, int] = {}  # codes of read commands that differ from END_STATUS, INPUTS, …
     switches: Sequence[tuple[int, str]] = ()
     unit, speed, rate = "pulse", "kpps", "rate"
     setting_names: Sequence[str] = ("RL", "RH", "PA")  # data of an initialisation; PA has two bytes
@@ -57,7 +57,7 @@ class CommandDecoder:
         raise NotImplementedError
 
     def other(self, code: int, data: Sequence[int]) -> str:
-        """Return as text a code that is neither an initialisation, nor a read, nor an operation."""
+        """Return any other code (no initialisation, read or operation) as text."""
         return {0x40: "immediate stop", 0x41: "decelerating stop"}.get(code, f"command {code:02X}")
 
     def phases(self, byte: int) -> str:
@@ -109,7 +109,7 @@ class CommandDecoder:
         return self.other(code | axis, data)
 
     def answer(self, code: int, data: Sequence[int], stopped: bool) -> str:
-        """Return the bytes that the part returned after a read command as text.
+        """Return the bytes with which the part answered a read command, as text.
 
         Args:
             stopped: True if the last end status contained a cause of a stop.
@@ -198,7 +198,7 @@ class Exchange:
     def statuses(self) -> list[int]:
         """Status bytes with IBF = 0, in order of time, without repetitions.
 
-        They show the reaction of the chip to each byte.
+        They show how the chip reacted to each byte.
         """
         taken = [byte for byte in self.polls if not byte & 2]
         return [byte for index, byte in enumerate(taken) if index == 0 or byte != taken[index - 1]]

@@ -17,7 +17,7 @@ class Access(NamedTuple):
     """Strobe on the bus from `begin` to `end` in ps.
 
     Attributes:
-        reg: level of the address pins.
+        reg: level of the address pins, which select a register.
     """
 
     begin: int
@@ -52,7 +52,8 @@ class Accesses:
     def without_polls(self, register: int) -> Accesses:
         """Return the strobes without repeated polls.
 
-        A repeated poll is a read of this register that directly follows a read of it with the same byte.
+        A read of this register is a repeated poll if the strobe before it is a read of the same register with
+        the same byte.
         """
         polls = ~self.write & (self.reg == register)
         polls[1:] &= polls[:-1] & (self.byte[1:] == self.byte[:-1])
@@ -85,8 +86,8 @@ class Wires:
     """Channels of a capture by the names of the pins.
 
     Attributes:
-        ports: ports whose bits were all captured, as numbers.
-        bits: single bits, by port and bit.
+        ports: channels of the ports of which all bits were captured; the level of such a channel is a number.
+        bits: channels of single bits, by port and bit number.
         end, sample: time of the end of the capture, and its sample period, in ps.
     """
 
@@ -126,20 +127,20 @@ class PartDecoder:
         pins: names for the pin map; a bidirectional data bus is `d`.
         inputs: inputs of the model with their idle levels.
         needs: returns the required pins.
-        lines: returns the content as text.
+        lines: returns the content of a capture as lines of text.
         stimulus: returns the actions of the host as (ps, levels) of pins of the model.
         trains: returns the pulses per axis.
         host_pins: inputs of the model that `stimulus` and `straps` set.
         outputs: outputs that are compared.
         phases: outputs whose first pattern is unknown if the capture begins during operation.
         straps: returns the levels of strap pins, which the model has from the beginning.
-        parameters: returns the parameters of the model that follow from the capture.
-        prelude: brings a new model to the state at the beginning of the capture.
+        parameters: returns the parameters of the model that are known from the capture.
+        prelude: function that brings a new model to the state of the part at the beginning of the capture.
         axis_of: returns the axis of a bit of a port; 0 = all axes.
         reset_levels: levels of the outputs during a reset.
         initialised: True if a comparison requires a reset or an initialisation in the capture.
-        pause: shortest time between two moves in ps with a 16 MHz crystal; it is longer for slower pulses.
-            The longest pulse interval that a rate byte can select is 2.05 ms.
+        pause: shortest time between two moves in ps with a 16 MHz crystal; after slow pulses, it is longer.
+            The default exceeds 2.05 ms, the longest pulse interval that a rate byte can select.
     """
 
     title: str

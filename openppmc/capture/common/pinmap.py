@@ -1,6 +1,6 @@
 """Assignment of the channels of a capture to pins.
 
-A YAML or TOML file contains the assignment. Without a file, the names of the channels are those of the pins.
+A YAML or TOML file contains the assignment. Without a file, each channel must have the name of its pin.
 
 part: ppmc104            # or --part
 crystal: 16000000        # of the original chip, Hz
@@ -29,7 +29,7 @@ from .errors import CaptureError
 from .signals import Bits, Capture, Channel
 
 NUMBERS = frozenset(("CLK_HZ", "XTAL_HZ", "BAUD", "ADR"))
-"""Parameters of a map whose values are numbers."""
+"""Parameters in a pin map that must be numbers."""
 WORDS = ("part", "crystal", "timing", "scope", "parameters", "pins")
 _PLACE = re.compile(r"(\w+)\[(\d+)\]")
 _INDEXED = re.compile(r"(.+?)\s*\[(-?\d+)\]")
@@ -77,7 +77,7 @@ class Pins:
         return f"{port}[{bit + self.low(port)}]" if self.widths[port] > 1 else port
 
     def low(self, port: str) -> int:
-        """Return the number that the lowest bit of this port has in the data sheet."""
+        """Return the number of the lowest bit of this port in the data sheet."""
         return self.lowest.get(port, 0)
 
 
@@ -159,7 +159,7 @@ def _toml(text: str) -> Any:
 
 
 def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int, Channel]]:
-    """Return the channels by port and bit.
+    """Return the channel of each pin, by port and bit.
 
     Raises CaptureError if the map does not match the capture or the part.
     """
@@ -196,7 +196,7 @@ def wired(capture: Capture, chosen: PinMap, pins: Pins) -> dict[str, Mapping[int
 
 
 def _scoped(capture: Capture, scope: str) -> Capture:
-    """Return the capture with the names of the channels of this scope without the scope.
+    """Return the capture, with the channels of this scope also under their names without the scope.
 
     Raises:
         CaptureError: the capture has no such scope.
@@ -304,7 +304,7 @@ def _by_name(capture: Capture, pins: Pins, found: dict[str, Mapping[int, Channel
 
 
 def _pieces(capture: Capture, port: str) -> list[tuple[str, Channel]]:
-    """Return the vectors that each hold some bits of a port."""
+    """Return the vectors whose names state which bits of the port they contain."""
     rows = [(_PIECE.fullmatch(name.strip().lower()), name) for name in capture.channels]
     return [(name, capture.channels[name]) for piece, name in rows if piece and piece[1] == port]
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .signals import Column
 
 CHOPPED = 20 * 10**9
-"""Longest off-time of a chopper, rounded up, in ps."""
+"""Longest off-time of a chopper in ps, rounded up."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ def runs(train: PulseTrain, pause: int) -> list[tuple[Column, int | None]]:
     split = gaps > pause
     if train.directions is not None:
         split |= train.directions[1:] != train.directions[:-1]
-    # The intervals between slow pulses may exceed `pause`. Therefore, an interval up to 2.5 times the
-    # previous one does not separate groups.
+    # The intervals of slow pulses may be longer than `pause`. Therefore, an interval of at most 2.5 times the
+    # previous interval does not end a group.
     last_split = -1
     for place in np.flatnonzero(split).tolist():
         turned = train.directions is not None and train.directions[place] != train.directions[place + 1]
@@ -82,8 +82,8 @@ def _move(axis: int, times: Column, way: int | None) -> Move:
     gaps = np.diff(times)
     if not len(gaps):
         return Move(axis, begin, end, sign, len(times), 0.0, 0.0, 0.0)
-    # Sampling may shorten an interval by one sample. Therefore, the highest speed is that of the shortest
-    # interval, where each interval is the median of three.
+    # Sampling may shorten an interval by one sample. Therefore, compute the median of each three successive
+    # intervals; the highest speed is that of the shortest median.
     least = min(gaps[:2].min(), gaps[-2:].min())
     if len(gaps) > 2:
         a, b, c = gaps[:-2], gaps[1:-1], gaps[2:]
@@ -117,8 +117,9 @@ def train(wires: Wires, axis: int, port: str, bit: int, level: int, way: str) ->
 def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
     """Return the steps of an axis whose phases were all captured.
 
-    Wires change one after the other within a few samples, so the levels 1 µs after a change are the pattern.
-    A pattern with all phases off or all on is not a step; the chopper causes it.
+    The wires of a new pattern change one after the other within a few samples. Therefore, only levels that
+    stay for 1 µs and three samples are a pattern. All phases off or all on is not a pattern, because the
+    chopper causes it.
     """
     phases = wires.ports.get(port)
     if phases is None:
@@ -138,7 +139,7 @@ def phase_train(wires: Wires, axis: int, port: str) -> PulseTrain | None:
 def unchopped(bits: Mapping[int, Channel], width: int, window: int) -> Mapping[int, Channel]:
     """Return phases without the off-times of a chopper.
 
-    During an off-time, all phases are off; after it, the phases have their previous pattern again.
+    During an off-time, all phases are off. Afterwards, the phases have the pattern that they had before.
 
     The wires of a new pattern change one after the other within `window` ps. If the wire of a phase was not
     captured, the phases are returned unchanged.

@@ -10,7 +10,7 @@ from .part_decoder import Access, Accesses, Line
 from .signals import numpy
 
 KNOWN = 1000
-"""Number of rows whose texts are cached."""
+"""Largest number of rows whose texts are cached."""
 
 
 class BusAccess(NamedTuple):
@@ -71,7 +71,7 @@ def decoded_byte_lines(
         return []
     row = np.cumsum(accesses.write & (accesses.reg == 1))
     row -= row[0]
-    # Columns with the bytes of each row: bytes sent, status bytes, responses.
+    # These columns contain the bytes of each row: bytes sent, status bytes, responses.
     sort = 3 * row + np.where(accesses.write, 0, 2 - accesses.reg)
     content = accesses.byte.astype(np.uint8)[np.argsort(sort, kind="stable")].tobytes()
     bounds = [0, *np.cumsum(np.bincount(sort, minlength=3 * int(row[-1]) + 3)).tolist()]
@@ -120,7 +120,7 @@ def _hex(data: Sequence[int]) -> str:
 def cycle(access: Access, levels: dict[str, int], data: str = "d_i") -> list[tuple[int, dict[str, int]]]:
     """Return an access as one strobe without glitches for the golden model.
 
-    The result contains the levels of the pins at the beginning and at the end of the strobe.
+    The result contains the levels of the pins from the beginning of the strobe on, and from its end on.
     """
     begin = {**levels, data: access.byte} if access.write else levels
     idle = {pin: 1 for pin, level in levels.items() if pin.endswith("_n") and not level and pin != "rst_n"}

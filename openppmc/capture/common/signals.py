@@ -21,7 +21,7 @@ US = 1_000_000
 """Number of picoseconds in a microsecond."""
 SECOND = 10**12
 BLOCK = 1 << 16
-"""Number of rows of a column that are processed together. The limit keeps temporary columns short."""
+"""Number of rows of a column that are processed together, so that temporary columns stay short."""
 
 
 def numpy(what: str = "a capture") -> Any:
@@ -50,8 +50,8 @@ class Channel:
         levels: level after each change.
         initial: level before the first change.
         width: number of bits.
-        unknown: bits that are unknown after each change; `None` if all are known.
-        unknown_first: unknown bits of `initial`.
+        unknown: mask of the bits that are unknown after each change; `None` if all levels are known.
+        unknown_first: mask of the unknown bits of `initial`.
         indices: declared indices of the bits, lowest bit first.
     """
 
@@ -85,7 +85,7 @@ class Channel:
     ) -> Channel:
         """Return a channel from columns.
 
-        Levels may repeat. Of several rows with the same time, the last one counts.
+        Levels may repeat. If several rows have the same time, only the last one is used.
         """
         np = numpy()
         one = cls(initial, (), width, indices)
@@ -121,7 +121,7 @@ class Channel:
 
     @property
     def changes(self) -> list[tuple[int, int]]:
-        """Changes as (ps, level), for channels with few of them."""
+        """Changes as (ps, level), for channels with few changes."""
         return list(self)
 
     @property
@@ -208,7 +208,7 @@ class Capture:
         name: name of the file.
         end: time of the last sample.
         sample: sample period in ps if the file states it, else 0.
-        part, parameters: part and parameters of the core; only our own files contain them.
+        part, parameters: part and parameters of the core; only files of this project contain them.
         doubled: names that several channels have.
         notes: remarks on the file for the user.
     """
@@ -254,7 +254,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
     np = numpy()
     if len(channel) < 2 or not (short := np.diff(channel.times) < shortest).any():
         return channel, 0
-    # Only groups of changes with short intervals between them are processed; all other changes are kept.
+    # Process only groups of changes with short intervals between them; keep all other changes.
     keep = np.ones(len(channel), bool)
     times, dropped = channel.times, 0
     for place in np.flatnonzero(short & ~np.concatenate(([False], short[:-1]))).tolist():
@@ -273,7 +273,7 @@ def without_glitches(channel: Channel, shortest: int) -> tuple[Channel, int]:
 
 
 def joined(bits: Sequence[Channel]) -> Channel:
-    """Return wires as one number, bit 0 first."""
+    """Return a channel whose level is the number that these wires form, bit 0 first."""
     np = numpy()
     width = len(bits)
     if width == 1:
@@ -317,7 +317,7 @@ def moments(columns: Sequence[Column]) -> Column:
 
 
 class Bits(Mapping[int, Channel]):
-    """Single bits of a port that the file contains as one number.
+    """Single bits of a port; the file contains the port as one number.
 
     Each bit is extracted when it is used.
     """
@@ -345,7 +345,8 @@ def level_at(channel: Channel, t: int) -> int:
 def merged(parts: Iterable[tuple[str, Channel]]) -> tuple[Column, Column, list[str]]:
     """Return the changes of all channels in order of time.
 
-    The result consists of the times, the number of the channel of each change, and the names of the channels.
+    The result consists of three items: the time of each change, the number of its channel, and the names of
+    the channels by number.
     """
     np = numpy()
     rows = list(parts)

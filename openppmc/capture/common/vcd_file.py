@@ -1,6 +1,6 @@
 """Captures in VCD, written by sigrok, PulseView, GTKWave or our own simulations.
 
-Our own files state the core in a comment, so that the golden model has the same clock and parameters:
+Files of this project state the core in a comment, so that the golden model has the same clock and parameters:
 
     $comment openppmc {"part": "pmc006", "parameters": {"CLK_HZ": 8000000, "TIMING": "FAST"}} $end
 
@@ -44,7 +44,7 @@ def core_comment(part: str, parameters: Mapping[str, object]) -> str:
 
 
 def _core(comment: str, name: str) -> tuple[str, dict[str, object]]:
-    """Return the content of a comment of `core_comment`; empty for any other comment. Raises CaptureError."""
+    """Return part and parameters from a comment of `core_comment`, else empty values. Raises CaptureError."""
     text = comment.strip()
     if not text.startswith(_MARK):
         return "", {}
@@ -84,7 +84,7 @@ class _Variable:
         self.levels.frombytes(levels.tobytes())
 
     def channel(self, start: int) -> Channel:
-        """Return the channel, with times from `start` on. The columns are empty afterwards."""
+        """Return the channel, with times from `start` on. The columns of this object are then empty."""
         import numpy as np
 
         full, kind = (1 << self.width) - 1, level_type(self.width)
@@ -97,7 +97,7 @@ class _Variable:
         self.times = self.levels = self.unknown = array("q")
         if start:
             times = times - start
-        # The levels at the first time stamp are those at the beginning of the capture.
+        # The levels at the first time stamp are the levels at the beginning of the capture.
         first = int(times.searchsorted(0, "right"))
         initial, hidden = (0, full) if not first else (int(levels[first - 1]), 0)
         if first and unknown is not None:
@@ -133,7 +133,8 @@ class _Head:
             self.scale = Fraction(1000)
             self.notes.append("no $timescale in it, 1 ns is assumed")
         if self.part:
-            # Our own files contain analogue curves of the speed for a viewer.
+            # Files of this project contain analogue curves of the speed for a viewer. Omit the notes about
+            # these curves.
             self.notes = [note for note in self.notes if not note.endswith(_LEFT_OUT)]
         self._name(declared)
 
@@ -231,9 +232,9 @@ class _Head:
     def _add(self, scopes: tuple[str, ...], name: str, code: str) -> None:
         """Add a variable under its name.
 
-        If variables in several scopes have this name, the name refers to the variable in the outermost scope.
-        If several scopes at the outermost depth have such a variable, the name refers to the first of these
-        variables. Each of them is also available as `scope.name`.
+        If variables in several scopes have this name, the name refers to the variable in the outermost scope
+        or, if several scopes are equally far out, to the first such variable. Each variable is also available
+        as `scope.name`.
         """
         depth, home = len(scopes), ".".join(scopes)
         known = self._depths.get(name)
@@ -257,9 +258,9 @@ class _Head:
 def read_vcd(path: Path) -> Capture:
     """Read all variables of a VCD.
 
-    If variables in several scopes have the same name, it refers to the one in the outermost scope. If several
-    scopes at the outermost depth have such a variable, the name refers to the first of these variables. Each
-    of them is also available as `scope.name`.
+    If variables in several scopes have the same name, the name refers to the variable in the outermost scope
+    or, if several scopes are equally far out, to the first such variable. Each variable is also available as
+    `scope.name`.
 
     Raises:
         CaptureError: the file is invalid.
@@ -477,7 +478,7 @@ class _Body:
         return np.array(rounded, np.int64)
 
     def _lookup(self, data: bytes, buf: Any, starts: Any, ends: Any) -> Any:
-        """Return the numbers of the variables with these codes."""
+        """Return the numbers of the variables whose codes are between these indices."""
         np = self.np
         size = ends - starts
         long = size > self.widest
@@ -555,7 +556,7 @@ class _Body:
             for place in range(one.width):
                 live = place < size
                 value = self.level[buf[np.where(live, end - 1 - place, 0)]]
-                # Bits that the file omits are 0, or unknown if the leftmost bit that it contains is unknown.
+                # Bits that the file omits are 0, or unknown if the leftmost bit in the file is unknown.
                 value = np.where(live, value, left & 2)
                 if (value == 255).any():
                     bad = int(begin[np.flatnonzero(value == 255)[0]])

@@ -90,8 +90,8 @@ def _trains(wires: Wires) -> list[PulseTrain]:
 def _named(model: Pmc006, wires: Wires) -> None:
     """Set the address of a new model.
 
-    The address is that of the controller that replies. Without a reply, it is that of the controller that
-    receives frames.
+    The address is that of the controller that replies or, if none replies, the address to which frames are
+    sent.
     """
     found = [line.data.split() for line in _lines(wires) if not line.invalid]
     replies = [words[3] for words in found if words[0] == "→"]

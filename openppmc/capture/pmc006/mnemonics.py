@@ -117,7 +117,7 @@ class Pmc006Decoder(CommandDecoder):
         """Return one row for each frame with its reply.
 
         The accesses are those that the script host records. Consecutive polls of a moving motor are combined
-        in one row, and the words of a program in another.
+        in one row. The words of a program are also combined in one row.
         """
         rows: list[Exchange006] = []
         for access in accesses:

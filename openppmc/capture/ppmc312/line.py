@@ -21,7 +21,7 @@ KINDS = {serial.BUSY: "busy", serial.READY: "ready", serial.DATA: "data", serial
 
 
 def _rate(wires: Wires) -> float:
-    """Return the line rate in bit/s, which the straps set or which is measured from the bits."""
+    """Return the line rate in bit/s, from the captured straps or measured from the bits."""
     crystal = float(str(wires.params.get("XTAL_HZ", 16_000_000))) / 16e6
     if (mod := wires.ports.get("mod")) is not None:
         for rate, level in SPEEDS.items():
@@ -94,7 +94,7 @@ def _frame(run: list[Character], reply: bool, mode: str) -> Line:
 def _station(wires: Wires) -> int:
     """Return the station at which the capture was made.
 
-    Its address is that of the straps, of the parameter ADR in the map, or of the replies.
+    Its address is read from the captured straps, from the parameter ADR in the map, or from the replies.
     """
     if (straps := wires.ports.get("adr")) is not None:
         return straps.initial

@@ -50,7 +50,7 @@ REFUSALS = {
     0xF9: "override interrupted",
 }
 STATES = {1: "INI", 2: "NOR", 4: "ACC", 8: "FIX", 16: "ABN", 32: "WRN"}
-REPORT_BITS = 0x38  # bit of a header; set if the block is not an answer to an instruction of the host
+REPORT_BITS = 0x38  # bits of a header; all are 0 if the block is an answer to an instruction of the host
 CUT = "cut short"
 FROM = {0x0B: "by the event: ", 0x1B: "by override: "}
 
@@ -71,7 +71,7 @@ def way(flags: int) -> str:
 
 
 def when(flags: int, rest: bytes) -> str:
-    """Return as text the condition for which a registered instruction waits."""
+    """Return the condition for which a registered instruction waits, as text."""
     if not flags & OV:
         return ""
     trigger = TRIGGERS[flags & 3]
@@ -160,7 +160,7 @@ def answer_words(block: bytes) -> str:
 class Row:
     """Instruction with its answer, or a report.
 
-    The bytes of a block are in logical order.
+    The bytes of a block are in logical order, which begins with the header.
 
     Attributes:
         t: time in cycles.
@@ -189,7 +189,7 @@ class Ppmc312Decoder(CommandDecoder):
     def exchanges(self, accesses: Iterable[Any]) -> list[Row]:
         """Group register accesses into instructions and reports."""
         rows: list[Row] = []
-        # Instructions without an answer so far.
+        # Instructions that have had no answer so far.
         waiting: list[Row] = []
         data: list[int] = []
         wanted, polls, begin = 0, [], 0

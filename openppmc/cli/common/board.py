@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from ...host.capabilities import Capabilities
 
 USUAL = "ppmc104"
-"""Part that is assumed for a plan or a virtual board if the user names no part."""
+"""Part of a plan or a virtual board if the user names no part."""
 LINE_WORDS = "echo, rs485, rts=high, rts=low, sum=binary, sum=chars, patience=SECONDS, xtal=HZ"
-"""All option names that --line may contain. Each kind of line supports some of them."""
+"""All option names that --line may contain. Each kind of line supports only some of these names."""
 
 
 class PartName(str, Enum):
@@ -62,7 +62,7 @@ class Board:
 
     @property
     def planned(self) -> Capabilities:
-        """Part for a plan, which needs no board: from --part, else from a virtual port, else USUAL."""
+        """Part for a plan, which needs no board: from --part, from a virtual port, or USUAL."""
         from ...host.capabilities import capabilities_of
         from ...host.port import virtual
 

@@ -155,7 +155,7 @@ def _show_result(found: Decoded, result: Result, tolerance: float) -> None:
 
 
 def _values(found: Decoded, result: Result | None) -> dict[str, Any]:
-    """Return the values for JSON; times in s."""
+    """Return the values for JSON, with times in s."""
     values: dict[str, Any] = {
         "capture": found.capture,
         "part": found.part,

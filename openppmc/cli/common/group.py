@@ -1,6 +1,7 @@
-"""Command group: a table of commands, imported when they are called, and the help texts.
+"""Command group: the table of the commands, and their help texts.
 
-On a narrow terminal the help is plain text, because table cells would cut words off.
+A command is imported when it is called. On a narrow terminal, the help is plain text, because the cells of a
+table would cut words off.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ def write(command: Any, ctx: Any, formatter: Any) -> None:
 
 _UsageError: Any = typer.BadParameter.__bases__[0]
 BRIDGE = ""
-"""Represents all parts that are accessed through the UART bridge, which have the same commands."""
+"""Represents all parts that are accessed through the UART bridge. They have the same commands."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ class Command:
         place: "module:function" below `openppmc.cli`; a Typer is a group of commands.
         help: docstring of the function for `--help`; only in the first row of a name.
         parts: the parts that have this command.
-        numbers: True if arguments such as -200 are numbers, not options.
+        numbers: True if arguments such as -200 are numbers and not options.
     """
 
     name: str
@@ -93,14 +94,15 @@ class PartGroup(TyperGroup):
     """Commands of all parts.
 
     Attributes:
-        rows: rows of the table; a row for BRIDGE precedes the other rows with its name.
+        rows: rows of the table. If several rows have the same name, a row for BRIDGE is the first of them.
     """
 
     rows: ClassVar[tuple[Command, ...]] = ()
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        # Only for help and suggestions: `resolve_command` builds the command that is called.
+        # These commands are only for help and suggestions; `resolve_command` builds the command that is
+        # called.
         self.commands = {
             row.name: TyperCommand(row.name, help=row.help, rich_markup_mode="rich")
             for row in reversed(self.rows)

@@ -31,7 +31,7 @@ Axes = Annotated[
 
 
 class HalGuard(Guard):
-    """Guard that counts repeated SIGTERMs as one, because halcmd may send several during a deceleration."""
+    """Guard that treats repeated SIGTERMs as one, because halcmd may send several during a deceleration."""
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         if number != signal.SIGTERM or not self.count:
@@ -90,7 +90,7 @@ def _reconnect(
 ) -> Machine:
     """Wait until the pin `reset` rises, and open the device again.
 
-    Motors that still move are stopped, because no axis of the component follows them.
+    Motors that are still moving are stopped, because the component does not follow their motions.
     """
     while True:
         controller.cycle()

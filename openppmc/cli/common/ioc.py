@@ -91,7 +91,7 @@ def serve(
     """Serve records until a signal arrives.
 
     Args:
-        requests: by axis number, the set-up with which each axis is initialised.
+        requests: set-up with which each axis is initialised, by its number.
         reopen: function that opens the device again after its port was lost.
     """
     from ...epics import Units, serve

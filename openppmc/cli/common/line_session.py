@@ -45,9 +45,9 @@ def parse_numbers(option: str, text: str, known: Container[int], span: str, exam
 def line_options(text: str, known: str) -> dict[str, Any]:
     """Return arguments for the method `open` of a bus, from the text of --line.
 
-    Raise BadParameter if it is invalid.
+    Raise BadParameter if the text is invalid.
 
-    `sum_mode` is returned as text.
+    The argument `sum_mode` is returned as text.
 
     Args:
         known: option names that this kind of line supports.

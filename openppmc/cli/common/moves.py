@@ -55,7 +55,7 @@ def override_values(texts: list[str] | None) -> list[Override]:
 
 
 def numbers_of(text: str | None, count: int) -> tuple[int, ...]:
-    """Return the axes for `count` values: the axes of --axes, else 1 to `count`.
+    """Return the axis numbers for `count` values: those of --axes, else 1 to `count`.
 
     Raise BadParameter if the list is invalid or its length is not `count`.
     """

@@ -17,7 +17,7 @@ from ...errors import PpmcError
 from ...host.capabilities import AnySetup, Capabilities, SetupRequest
 
 MOST_AXES = max(row.axes for row in parts.having("number", "capabilities"))
-"""Highest number that --axis accepts; the connected part may have fewer axes."""
+"""Highest axis number that --axis accepts. The connected part may have fewer axes."""
 Json = Annotated[bool, typer.Option("--json", help="print JSON")]
 _PANEL = "Set-up (stored by init)"
 
@@ -67,7 +67,7 @@ class SetupValues:
     curve: str | None = None
 
     def merged(self, changes: dict[str, Any]) -> SetupValues:
-        """Return a copy with these changes; None keeps a value. Raise PpmcError for unknown names."""
+        """Return a copy with those changes that are not None. Raise PpmcError for unknown names."""
         known = {field.name for field in fields(self)}
         if unknown := set(changes) - known:
             raise PpmcError(
@@ -155,7 +155,10 @@ _OPTIONS: dict[str, Any] = {
 
 
 def with_setup(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Add the set-up options to a command, which receives the typed ones as the dict `typed`."""
+    """Add the set-up options to a command.
+
+    The command receives the options that the user has typed as the dict `typed`.
+    """
     return with_options("typed", _OPTIONS, _setup_values)(command)
 
 
@@ -171,11 +174,11 @@ def _setup_values(typed: dict[str, Any]) -> dict[str, Any]:
 def with_options(
     parameter: str, options: dict[str, Any], finish: Callable[[dict[str, Any]], Any]
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Return a decorator that adds options to a command; the typed options become one parameter.
+    """Return a decorator that adds options to a command, which receives them as one parameter.
 
     Args:
         options: annotation of each option, by its name. The default value of each option is None.
-        finish: returns the value of the parameter for the typed options.
+        finish: function that returns the value of this parameter from the options that the user typed.
     """
 
     def decorator(command: Callable[..., Any]) -> Callable[..., Any]:
@@ -185,7 +188,8 @@ def with_options(
             typed = {name: value for name, value in values.items() if value is not None}
             return command(**arguments, **{parameter: finish(typed)})
 
-        # get_type_hints is not used: on Python 3.10 it hides the Annotated of options with default None.
+        # get_type_hints is not used: on Python 3.10, its result lacks the Annotated of options with the
+        # default None.
         own = [
             one.replace(kind=inspect.Parameter.KEYWORD_ONLY)
             for name, one in inspect.signature(command, eval_str=True).parameters.items()

@@ -46,11 +46,11 @@ def table(rows: dict[str, str]) -> Table:
 
 
 def print_rows(rows: Sequence[Sequence[str]], sides: str) -> None:
-    """Print a table whose lines may be longer than those of the terminal.
+    """Print a table whose lines may be longer than a line of the terminal.
 
     Args:
         rows: rows of cells; the first row contains the headings.
-        sides: alignment of each column, < = left, > = right.
+        sides: one character per column, which aligns it: "<" left, ">" right.
     """
     if is_narrow():
         from .narrow import listed

@@ -34,7 +34,7 @@ FARTHEST = 1 << 31
 
 @dataclass(frozen=True)
 class Override:
-    """Action at a position: a change to a speed in pps with a ramp, or a stop.
+    """Action at a position: a change of the speed with a ramp, or a stop.
 
     Attributes:
         now: True for a stop without a ramp.
@@ -69,7 +69,8 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
     """Return the figures of an undisturbed move.
 
     Times are in s, from the first to the last pulse; speeds are in pps. The ramps are computed interval by
-    interval, the plateau in closed form. Raises OutOfRange if the part does not support the number of pulses.
+    interval, the motion between them by a formula. Raises OutOfRange if the part does not support the number
+    of pulses.
     """
     n = abs(pulses)
     if not 1 <= n <= ENDLESS:
@@ -132,7 +133,7 @@ def plot_move(trajectory: Callable[[int], Trajectory], pulses: int, path: Path) 
     the suffix of the file name requests.
 
     Args:
-        trajectory: function that computes the trajectory of a number of pulses.
+        trajectory: function that computes the trajectory of a move of a given number of pulses.
     """
     needs("plot", "a plot", "matplotlib")
     from ...plot.profile import FORMATS, draw_profile
@@ -174,7 +175,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
     does not have the function of an optional method, the method raises OutOfRange or does nothing.
 
     Attributes:
-        wide: True if several axes are printed as the rows of one table.
+        wide: True to print several axes as the rows of one table.
     """
 
     wide = False
@@ -235,7 +236,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
     # ------------------------------------------------------------------ functions of some parts only
 
     def prepare(self, part: PartT, overrides: Sequence[Override], encoder: int | None) -> None:
-        """Set the overrides of the next move, and the deviation in pulses that the encoder may have."""
+        """Set the overrides of the next move, and the permitted deviation of the encoder in pulses."""
         if encoder is not None:
             raise OutOfRange(f"encoder: a {part.kind} does not have that")
         if overrides:
@@ -249,7 +250,7 @@ class Presenter(ABC, Generic[PartT, SetupT]):
         progress: OnProgress,
         pulse_only: bool = False,
     ) -> Sequence[MotionResult]:
-        """Move several axes, with a common start, and wait.
+        """Move several axes, which start together, and wait for the end of all motions.
 
         Args:
             pulses: pulses of each axis, by its number.
@@ -311,7 +312,7 @@ class RampPresenter(Presenter[PartT, speeds.Setup]):
         }
 
     def moving(self, status: Any, number: int) -> tuple[bool, int | str | None]:
-        """Return whether the axis moves, and the error code, from a status."""
+        """Return (True if the axis moves, error code) from a status of axis `number`."""
         return status.busy, None if status.error is None else int(status.error)
 
     def setup_rows(self, setup: speeds.Setup) -> dict[str, str]:

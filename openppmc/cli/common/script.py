@@ -57,7 +57,7 @@ def number_of(step: Step) -> int:
 
 
 def execute_steps(steps: Iterable[Step], name: str, guard: Guard, do: Callable[[Step], None]) -> None:
-    """Execute all steps with `do`. The step `repeat` executes its body several times.
+    """Execute all steps with `do`. For a step `repeat`, its body is executed several times.
 
     The progress bar of a step is removed at the end of the step. If the part rejects a step, ScriptError with
     file:line is raised.
@@ -83,7 +83,7 @@ class ScriptRunner:
 
     Args:
         values: set-ups of the axes in use.
-        say: prints a line for the user.
+        say: function that prints a line for the user.
     """
 
     def __init__(
@@ -175,7 +175,7 @@ def _axes_of(steps: Iterable[Step], name: str, kind: Capabilities) -> set[int]:
 
 
 def _unsupported_reason(step: Step, kind: Capabilities) -> str:
-    """Return the reason why the part does not support this step; empty if it supports the step."""
+    """Return why the part does not support this step, as text; empty if the part supports it."""
     if own := part_commands().get(step.word):
         return own.unsupported_reason(kind, step.values)
     if step.word == "off" and COILS_OFF not in kind.has:
@@ -225,9 +225,9 @@ class Step:
 
 
 OF_AXES = ("init", "move", "goto", "step", "jog", "home", "stop", "zero", "off", "position")
-"""Commands that may end with axis=N; without it they apply to axis 1."""
+"""Commands that may end with axis=N. Without axis=N, they apply to axis 1."""
 OF_ALL_AXES = ("stop", "off", "position")
-"""Commands that apply to all axes if they do not end with axis=N."""
+"""Commands that may end with axis=N. Without axis=N, they apply to all axes."""
 
 
 def read_file(file: Path) -> tuple[str, str]:

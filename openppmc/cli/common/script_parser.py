@@ -17,9 +17,10 @@ class PartCommand:
     """Command of script files that only some parts support.
 
     Attributes:
-        unsupported_reason: returns the reason why a part does not support the command with these operands;
-            empty if it supports the command.
-        execute: executes the command; it is called only if `unsupported_reason` returns an empty text.
+        unsupported_reason: function that returns why a part does not support the command with these operands,
+            as text; empty if the part supports it.
+        execute: function that executes the command. It is called only if `unsupported_reason` returns an
+            empty text.
     """
 
     parse: Reader
@@ -81,7 +82,7 @@ _SOME = {
 
 @cache
 def part_commands() -> dict[str, PartCommand]:
-    """Return the commands that only some parts support, including those of column `script_commands`."""
+    """Return the commands that only some parts support, also the commands of column `script_commands`."""
     own = dict(_SOME)
     for row in parts.folders():
         if row.script_commands:
@@ -95,7 +96,7 @@ MOST_TURNS = 1_000_000
 Values = dict[str, Any]
 """Operands of a script line, by the names that `ScriptRunner` uses."""
 Reader = Callable[[list[str]], Values]
-"""Parses and removes the words after the first one. Raises ValueError if a word is invalid."""
+"""Function that parses and removes the words after the first one. Raises ValueError for an invalid word."""
 
 
 def check_no_more_words(words: list[str]) -> None:

@@ -77,7 +77,7 @@ def selftest(
 
 
 def _spec() -> str:
-    """Return the port; a virtual board gets a recorder.
+    """Return the text of the port; for a virtual board, it includes the option for a recorder.
 
     Raises PpmcError for `model:`, because the golden model cannot be compared with itself.
     """

@@ -51,7 +51,10 @@ def state_folder() -> Path:
 
 
 def stores_setup(port: str) -> bool:
-    """Return True if set-ups may be stored for this port. A virtual board starts in reset each time."""
+    """Return True if set-ups may be stored for this port.
+
+    This is not the case for a virtual board, because it starts in reset each time.
+    """
     return bool(port) and not virtual(port)
 
 
@@ -94,18 +97,18 @@ def store_setup(port: str, values: dict[str, Any], axis: int = 1) -> None:
 
 
 BAR_AFTER = 0.6
-"""Seconds after which a motion shows a progress bar."""
+"""Time in s from the start of a motion until its progress bar is shown."""
 
 
 class Interrupted(Exception):  # noqa: N818 - the user did it
     """A signal has arrived.
 
-    The exception is raised where the program checks for signals, never within a frame.
+    The exception is raised only where the program checks for signals, so it never interrupts a frame.
     """
 
 
 class Guard:
-    """Context manager that counts signals, so that no signal interrupts an exchange with a board.
+    """Context manager that only counts signals, so that they do not interrupt an exchange with a board.
 
     Attributes:
         number: number of the first signal.
@@ -220,7 +223,7 @@ class Guard:
 
 
 def mismatch(build: Build | None, number: int) -> str:
-    """Return one line if bitstream and package do not match: the difference, and what to do.
+    """Return one line that states how bitstream and package differ, and what to do.
 
     The result is empty if they match, or if this cannot be checked.
 
@@ -268,7 +271,7 @@ class Session:
 
     @property
     def presenter(self) -> AnyPresenter:
-        """Presenter: output of the part, and its additional functions."""
+        """Presenter of the part, which defines its output and additional functions."""
         return presenter_of(self.kind)
 
     @property
@@ -288,8 +291,8 @@ class Session:
 def setup_values(typed: dict[str, Any], axis: int = 1) -> SetupValues:
     """Return the set-up of an axis.
 
-    A typed value has the highest priority, followed by the value that `init` stored for this port and axis,
-    and the default.
+    Each value is the typed value, if any; otherwise, the value that `init` stored for this port and axis;
+    otherwise, the default.
     """
     return SetupValues().merged(load_setup(BOARD.port, axis)).merged(typed)
 
@@ -326,7 +329,7 @@ def ready(typed: dict[str, Any], axes: Iterable[int]) -> Iterator[Session]:
 
 
 def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
-    """Make the plans of all axes, then initialise the axes; return the set-ups that are reached."""
+    """Plan the set-ups of all axes, then initialise the axes; return the set-ups that are reached."""
     plans = {
         axis: table.plan(session.xtal_hz, session.kind, session.kind.check_axis(axis))
         for axis, table in values.items()
@@ -335,7 +338,7 @@ def initialise(session: Session, values: dict[int, SetupValues]) -> list[Any]:
 
 
 def stop_all(axes: Sequence[AnyAxis], now: bool = False) -> list[MotionResult]:
-    """Stop motions, including those of other programs, and wait for their ends.
+    """Stop motions, including motions that other programs started, and wait for their ends.
 
     All axes are stopped before an error is raised. An axis at standstill is an error only if no axis could be
     stopped.

@@ -52,7 +52,7 @@ def switches(axis_inputs: dict[str, bool]) -> str:
 
 
 def speed(value: speeds.Speed, byte_name: str = "rate") -> str:
-    """Return the reached speed with its rate or divisor, and the requested speed if it differs."""
+    """Return a speed as text: as reached, with its rate or divisor, and as requested if that differs."""
     text = f"{speeds.nearby(value.reached)} pps ({byte_name} {value.rate})"
     return (
         text
@@ -104,7 +104,7 @@ def watch(
     lines: Callable[[], Iterable[str]],
     table: Callable[[], Table],
 ) -> None:
-    """Show a table and update it on a terminal; elsewhere, print the `lines` of each reading.
+    """On a terminal, show `table` and update it; elsewhere, print the `lines` of each reading.
 
     Args:
         pause: function that is called between two readings.

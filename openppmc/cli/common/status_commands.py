@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def _axis_values(session: Session, axis: int | None) -> dict[str, dict[str, Any]]:
-    """Return the values of each axis. The keys are the prefixes of the rows."""
+    """Return the values of each axis, by the prefix of its rows."""
     seen = session.presenter.status_of(session.part, session.selected_axes(axis))
     return {f"axis {number} " if len(seen) > 1 else "": values for number, values in seen.items()}
 

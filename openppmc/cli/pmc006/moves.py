@@ -118,7 +118,7 @@ def speed(
 
 
 def _goes(part: Pmc006, pps: int) -> bool:
-    """If the motor already runs in this direction, change its speed and return True, else return False."""
+    """If the motor already runs in this direction, change its speed and return True; else return False."""
     modes = part.modes()
     if not modes.running or modes.forward != (pps > 0):
         return False

@@ -37,7 +37,7 @@ Place = Annotated[int, typer.Option("--at", metavar="N", help="number of the ins
 
 
 def _read(path: Path) -> Program:
-    """Read a program from a text or an image. Raise PpmcError."""
+    """Read a program from a file that contains its text or its image. Raise PpmcError."""
     try:
         if path.suffix == ".bin":
             return Program.from_image(path.read_bytes())
@@ -51,7 +51,7 @@ def _read(path: Path) -> Program:
 
 
 def _write(path: Path | None, text: str | bytes) -> None:
-    """Write to a file; without a file, print the text. Raise PpmcError."""
+    """Write the text to a file; without a file, print it. Raise PpmcError."""
     try:
         if path is None:
             assert isinstance(text, str)

@@ -47,7 +47,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Pmc006]:
-        """Return the controllers that --address names; without --address, the first that replies."""
+        """Return the controllers of --address; without --address, the first controller that replies."""
         if text is None:
             numbers = [find(self.bus.line, self._on_scan_progress)]
             self.guard.bar_off()
@@ -69,7 +69,7 @@ class Session:
         return self.selected_axes(text)[0]
 
     def scan(self) -> list[ScanResult]:
-        """Return all controllers that reply; show a bar during the search."""
+        """Return all controllers that reply; show a progress bar during the search."""
         found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found
@@ -114,7 +114,7 @@ def state(flags: Flags | None, modes: Modes | None) -> str:
 
 
 def prefix(part: Pmc006) -> str:
-    """Return the prefix of lines about a controller; empty if it is the only one."""
+    """Return the prefix of lines about a controller; empty if the program uses only one."""
     return "" if part.alone else f"controller {part.address}: "
 
 
@@ -226,7 +226,7 @@ def settings_rows(values: dict[str, int]) -> list[tuple[str, ...]]:
 def _meaning(name: str, value: int, text: str) -> str:
     """Return the meaning of a setting.
 
-    For some settings, the text includes a value that results from the setting.
+    For some settings, the text also contains a value that is calculated from the setting.
     """
     if name == "current":
         return f"{text}: drives {drive_current(value)} mA"

@@ -52,7 +52,7 @@ def _plan(setup: Setup, pulses: int, speed: speeds.Speed | None) -> Plan:
 def figures(setup: Setup, pulses: int, speed: speeds.Speed | None) -> dict[str, Any]:
     """Return the figures of an undisturbed move, as `presenter.key_figures` does.
 
-    The ramps are computed interval by interval, the plateau in closed form.
+    The ramps are computed interval by interval, the motion between them by a formula.
     """
     n = abs(pulses)
     plan = _plan(setup, n, speed)
@@ -96,7 +96,7 @@ MOST = 8
 
 
 def register(part: Ppmc312, overrides: Sequence[Override]) -> None:
-    """Set the overrides in this order. Raise OutOfRange if the part does not support one of them."""
+    """Register the overrides in this order. Raise OutOfRange if the part does not support one of them."""
     if len(overrides) > MOST:
         raise OutOfRange(f"{len(overrides)} overrides: too many; a {part.kind} stores {MOST}")
     for one in overrides:
@@ -130,7 +130,7 @@ def axis_values(part: Axis[Any]) -> dict[str, Any]:
 
 
 def state_rows(values: dict[str, Any]) -> dict[str, str]:
-    """Return the additional rows of values that other parts do not have."""
+    """Return rows with the values that only a PPMC-312 has."""
     return {
         "encoder": str(values["encoder"]),
         "state": values["state"],
@@ -264,7 +264,7 @@ def _count(words: list[str], expected: int) -> None:
 
 
 def _unsupported_reason(kind: Capabilities, values: Values) -> str:
-    """Return the reason why another part does not support the command; empty for a PPMC-312."""
+    """Return why a part does not support the command, as text; empty for a PPMC-312."""
     return "" if kind is CAPABILITIES else f"a {kind} has neither overrides nor events"
 
 

@@ -47,7 +47,7 @@ class BankMotion(Motion):
         """Wait as `Motion.wait` does.
 
         Raises:
-            NotCalledError: the motion belongs to a group that is still open, so it would never end.
+            NotCalledError: the motion belongs to a group that is still open, so the wait would never end.
         """
         if not self.over and self._bank_axis._in_open_group:
             raise NotCalledError(
@@ -96,7 +96,7 @@ class BankAxis(Axis):
         return self._motion
 
     def _foreign_result(self) -> MotionResult:
-        """Return the result of a motion of another program, whose interrupt is pending."""
+        """Return the result of a motion that another program started; its interrupt is pending."""
         motion = Motion(self, MotionRequest(CONTINUOUS, CW), 0, ours=False)
         motion._on_status(0)
         if not motion.over:

@@ -18,9 +18,9 @@ from .registers import BUSY, ERR, GO, MASK, STATUS, GroupRefused, bit_bytes, go_
 from .window import visit
 
 _GO_READS = 8
-"""Number of read accesses that the host makes before it changes MASK.
+"""Number of read accesses between a write of GO and the next change of MASK.
 
-One access takes 10 cycles, and GO needs at most 64 cycles to reach all axes.
+One access takes 10 cycles, and a GO is effective in all axes after at most 64 cycles.
 """
 
 
@@ -63,9 +63,9 @@ def write_mask(kind: RateCapabilities, numbers: tuple[int, ...]) -> list[tuple[i
 
 
 class Group(Checked):
-    """Context manager whose motions start together.
+    """Context manager for motions that start together.
 
-    Motions of these axes that are started inside the block wait at their first pulse.
+    If a motion of one of its axes is started inside the block, it waits before its first pulse.
 
     At the end of the block, all of them start in the same cycle. If an exception leaves the block, the
     waiting motions are stopped, and no axis moves. A group is created with the numbers of its axes.
@@ -136,7 +136,7 @@ class Group(Checked):
     def _ended(self, number: int, status: int) -> bool:
         """Return True if the motion of this axis ended while it was waiting.
 
-        A switch, a stop or a reset ends it.
+        A switch, a stop or a reset may have ended it.
         """
         motion = self._bank.axes[number - 1].motion
         if motion is None:
@@ -147,7 +147,7 @@ class Group(Checked):
     def _cancel(self) -> None:
         """Cancel all motions of this group.
 
-        All its axes were stopped when the group was opened.
+        Other motions are not affected, because all axes of the group were at standstill when it was opened.
         """
         link, kind = self._bank.link, self._bank.kind
         try:

@@ -51,9 +51,9 @@ class Axes(dict[int, BankAxis]):
 class PpmcBank(Part):
     """Bank of axes. A bank is a context manager; see `part.Part`.
 
-    `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. Opening the bank reads and checks INFO
-    (WrongDevice), reads finish statuses that other programs left unread, and clears MASK. Running motions
-    continue. All axes share the bridge, so only one call at a time is allowed for all of them.
+    `axis[1]` to `axis[N]` are axes 0 to N − 1 of the window. When a bank is opened, the driver reads and
+    checks INFO (WrongDevice), reads finish statuses that other programs left unread, and clears MASK. Running
+    motions continue. All axes share the bridge, so only one call at a time is allowed, for whichever axis.
     """
 
     kind: BankCapabilities = CAPABILITIES
@@ -179,7 +179,7 @@ class PpmcBank(Part):
     ) -> dict[int, MotionResult]:
         """Start moves in the same cycle, and wait for all of them. An axis with 0 pulses does not move.
 
-        If an axis ends early, the others are stopped with a ramp.
+        If the motion of an axis ends early, the other axes are stopped with a ramp.
 
         Raises:
             LimitReached, AlarmStop, StoppedByCommand: cause of the first early end.
@@ -216,7 +216,7 @@ class PpmcBank(Part):
     def _wait(self, motions: Mapping[int, Motion], progress: OnProgress | None) -> Motion | None:
         """Wait until all motions have ended; return the first one that ended early, if any.
 
-        If a motion ends early, the others are stopped.
+        If a motion ends early, the other motions are stopped.
         """
         pause = PROGRESS_POLL if progress else SAFETY_POLL
         first: Motion | None = None
@@ -248,9 +248,9 @@ class PpmcBank(Part):
     def stop_all(self, wait: bool = True) -> dict[int, MotionResult]:
         """Stop every motion immediately, in the same cycle (STOP, BANK-GRP-04).
 
-        Steps may be lost at high speed. It is no error if no axis moves. The result contains the results of
-        all axes that moved, by number, including motions that another program started. Without `wait`,
-        the result is empty.
+        Steps may be lost at high speed. The call is not an error if no axis moves. The result contains the
+        results of all axes that moved, by number, including motions that another program started. Without
+        `wait`, the result is empty.
         """
         visit(self.link, [(1, Script().write(STOP, 0))])
         ends: dict[int, MotionResult] = {}
@@ -288,11 +288,11 @@ class PpmcBank(Part):
         self._group = group
 
     def _is_in_group(self, number: int) -> bool:
-        """Return True if the open group holds motions of this axis."""
+        """Return True if a group is open and contains this axis."""
         return self._group is not None and number in self._group.numbers
 
     def _axis_started(self, number: int) -> None:
-        """Record that this axis has accepted a motion."""
+        """Store that this axis has accepted a motion."""
         if self._group is not None and number in self._group.numbers:
             self._group.started.add(number)
 
@@ -327,7 +327,7 @@ def _table(moves: Any) -> Mapping[int, int]:
 
 
 def _signed(raw: bytes) -> int:
-    """Return a position from its bytes."""
+    """Return a position from its bytes, which are a signed number."""
     return int.from_bytes(raw, "little", signed=True)
 
 

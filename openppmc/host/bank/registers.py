@@ -32,7 +32,7 @@ def go_error(status: int, number: int) -> CommandRefused:
 
 
 class GroupRefused(PpmcError):
-    """Some axes of a group did not start; the other axes run.
+    """Some axes of a group did not start; the other axes of the group are running.
 
     Args:
         refusals: exception of each axis, by number.
@@ -65,7 +65,7 @@ INFO_MARK = 0x42  # byte 0
 INFO_VERSION = 0x01  # byte 1: version of the window
 # End of the registers.
 SELECT = 0x3
-"""Register of the bridge, which selects the axis of all other registers."""
+"""Register of the bridge that selects the axis to which all other registers belong."""
 POSITION_BYTES = 4
 
 
@@ -98,7 +98,7 @@ class AxisSnapshot:
     """State of an axis at one time.
 
     Attributes:
-        position: position counter of the axis plus the offset of `Axis.zero`.
+        position: position counter of the axis, plus the offset that `BankAxis.zero` has stored.
     """
 
     status: Status
@@ -138,7 +138,7 @@ def members(raw: bytes) -> tuple[int, ...]:
 
 
 def bit_bytes(numbers: tuple[int, ...], axes: int) -> bytes:
-    """Return the bytes of a register where the bits of these axes are 1.
+    """Return the bytes of a register in which only the bits of these axes are 1.
 
     The register has one bit per axis, byte 0 first.
     """
@@ -152,7 +152,7 @@ SIZES = (4, 8, 16, 32, 64)
 
 
 class BankCapabilities(RateCapabilities):
-    """Capabilities of a PPMC-104 without those that BANK-GEN-03 excludes."""
+    """Capabilities of a PPMC-104, without the functions that BANK-GEN-03 excludes."""
 
     def ramp_clock(self, xtal_hz: int, request: SetupRequest) -> speeds.BaseClock:
         if request.external_clock is not None:
@@ -166,4 +166,4 @@ CAPABILITIES = BankCapabilities(
     has=frozenset((POSITIVE, LONG, PULSE_ONLY, COILS_OFF, CHOPPER)),
     outputs=0,
 )
-"""Capabilities of the largest bank; a driver uses those of its own bank."""
+"""Capabilities of the largest bank. A driver uses the capabilities of its own bank."""

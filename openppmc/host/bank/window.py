@@ -1,8 +1,8 @@
 """Window of a bank through the UART bridge, which gives access to the registers of one axis at a time.
 
-A write to register 3 selects the axis. Every script selects its axis again, because a lost response, a reset
-or another program may have changed the selection. Within a script, register 3 is written only if the axis
-changes.
+A write to register 3 selects the axis. Every script selects its axis at the beginning, because the selection
+may have changed: by a script whose response was lost, by a reset, or by another program. Within a script,
+register 3 is written only if the axis changes.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .registers import INFO, INFO_MARK, INFO_VERSION, SELECT, SIZES, Info, comma
 
 _SELECT_BYTES = 2
 Piece = tuple[int, Script]
-"""Number of an axis (from 1), and script to execute at this axis."""
+"""Number of an axis, from 1, and the script that is executed while this axis is selected."""
 
 
 class AxisLink:
@@ -61,11 +61,11 @@ class AxisLink:
         self._link.forget_events()
 
     def execute(self, script: Script) -> Answer:
-        """Execute a script completely at this axis, and return its answer."""
+        """Execute a script completely while this axis is selected, and return its answer."""
         return self.check_answer(self.attempt(script))
 
     def attempt(self, script: Script) -> Answer:
-        """Execute a script at this axis and return its answer for any result."""
+        """Execute a script while this axis is selected, and return its answer for any result."""
         return self._link.attempt(Script().write(SELECT, self._number - 1).extend(script))
 
     def check_answer(self, answer: Answer) -> Answer:
@@ -79,7 +79,7 @@ class AxisLink:
 
 
 def visit(link: Link, pieces: Sequence[Piece]) -> list[tuple[bytes, ...]]:
-    """Execute scripts at several axes in as few frames as possible; return the values of each script.
+    """Execute scripts for several axes in as few frames as possible; return the values of each script.
 
     The call raises the errors of `Link.execute`. If a command is rejected, the error names the axis, and the
     following scripts are not executed.
@@ -128,7 +128,7 @@ def read_info(link: Link) -> Info:
     Raises:
         WrongDevice: this is no bank, or a bank of an unknown version or size.
     """
-    # The selected axis determines which bytes of INFO are read. Every bank has at least four axes.
+    # The selected axis determines which byte of INFO is read. All banks have at least four axes.
     mark, version, axes = (
         value[0][0] for value in visit(link, [(k, Script().read(INFO)) for k in (1, 2, 3)])
     )

@@ -73,15 +73,16 @@ class Axis(Settings):
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
-        """Set the maximum speed; a running motion changes to it with its ramps."""
+        """Set the maximum speed. A running motion changes its speed to it, with its ramps."""
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        A free run receives a stop instruction. The part cannot stop a move with a ramp. In a move of 256
-        steps or more, the driver therefore lowers the maximum speed, and aborts the move when the motor has
-        decelerated to this speed.
+        Speed mode has a stop instruction with a ramp. A move can only be aborted immediately. Therefore, the
+        driver lowers the maximum speed to the stop speed, waits for the time of this ramp, aborts the move,
+        and restores the maximum speed. A move of up to 255 steps ignores the new maximum speed, so it is
+        aborted without a ramp.
 
         Raises:
             NothingToStop: the motor is stopped.
@@ -176,7 +177,7 @@ class Axis(Settings):
         return motion
 
     def _start_executed(self, begin: int, reply: int) -> int | None:
-        """Return the lost reply to a start if the start was executed, else `None`.
+        """Return `reply` if a start, whose reply was lost, was executed; otherwise, return `None`.
 
         Before the start, the motor was stopped. The start was therefore executed if the motor moves or has
         moved.
@@ -245,7 +246,7 @@ class Axis(Settings):
         self.execute(Code.RUN, 0, good=lambda value: value == 0)
 
     def _slow_move(self, motion: Motion) -> None:
-        """Decelerate a move to its stop speed; then `Motion._update` aborts it."""
+        """Decelerate a move to its stop speed, and let `Motion._update` abort it afterwards."""
         top, low = self.max_speed, self.stop_speed
         if top <= low:
             motion._abort_after(0, top)
@@ -265,7 +266,7 @@ def _ext(number: int) -> int:
     return number
 
 
-# Homing of a PMC006B4. It has no switches except EXT1 and EXT2.
+# Homing of a PMC006B4, whose only switches are EXT1 and EXT2.
 
 LONGEST_WAY_OFF = 200_000
 SLOWEST, FASTEST = 65, 3000

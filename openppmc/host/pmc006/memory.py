@@ -15,7 +15,7 @@ OnCount = Callable[[int, int], None]
 SAVE_SECONDS, BURN_SECONDS = 0.03, 0.4
 """Time in s for which the EEPROM is busy after a save or a burn, with some reserve."""
 _LOOKS = 10
-"""Factor between these times and the longest wait. It allows for a slow I2C clock."""
+"""Number of reads of the EEPROM's state, at intervals of the time above. It allows for a slow I2C clock."""
 _MASK = 0xFFFFFFFF
 
 
@@ -28,11 +28,11 @@ class Memory(Axis):
     # ------------------------------------------------------------------ program in the buffer
 
     def load_program(self, program: Program, progress: OnCount | None = None) -> None:
-        """Write the words of a program that differ from the buffer, and read them back.
+        """Write those words of a program that differ from the buffer, and read these words back.
 
         Raises:
             ProgramRuns: a program is running.
-            ProgramVerifyFailed: a word reads back wrong.
+            ProgramVerifyFailed: a word that was read back differs from the program.
         """
         if self.program_runs():
             raise ProgramRuns(0, f"{self._message_prefix}{ProgramRuns.text}")
@@ -97,8 +97,7 @@ class Memory(Axis):
         got = self.execute(code, good=_yes_or_no)
         if not got and self.counters.repeated == repeated:
             raise StorageBusy(0, f"{self._message_prefix}{StorageBusy.text}")
-        # If the first reply was lost and the repeated instruction is rejected, the first instruction is being
-        # executed.
+        # If the reply was lost and the repeated instruction is rejected, the part is executing the first one.
         for _ in range(_LOOKS):
             self.line.pause(seconds)
             state = self.execute(Code.STORED, good=lambda value: value in set(Storage))
@@ -132,7 +131,7 @@ class Memory(Axis):
     def halt_program(self) -> None:
         """Halt the program; a motion continues.
 
-        After it, the functions of the keys are off, and `offline` is unchanged.
+        After the call, the functions of the keys are off, and `offline` is unchanged.
         """
         offline = self.offline
         self.offline = 0
@@ -183,7 +182,7 @@ class Memory(Axis):
         self.execute(Code.POINTER, word, good=lambda value: value == word)
 
     def _seek(self, word: int) -> None:
-        """Set the word pointer of the part unless it already has this value."""
+        """Set the word pointer of the part, unless the pointer already has this value."""
         if self._here != word:
             self._point(word)
 

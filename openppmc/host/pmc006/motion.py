@@ -75,9 +75,10 @@ class Motion(Handle):
         return self._part.address
 
     def _abort_after(self, seconds: float, top: int) -> None:
-        """Abort the motion after this number of seconds, and then set the maximum speed to `top` again.
+        """Let `_update` abort the motion after some seconds, and then set the maximum speed to `top`.
 
-        The caller has lowered the maximum speed, so that the motor decelerates.
+        The caller has lowered the maximum speed from `top`, so that the motor decelerates before the motion
+        is aborted.
         """
         self._abort = self.line.clock() + seconds, top
 
@@ -144,5 +145,5 @@ class Motion(Handle):
 
 
 def _signed(steps: int) -> int:
-    """Return a difference of positions, which wrap at 32 bits."""
+    """Return the signed difference of two positions; positions are numbers modulo 2^32."""
     return (steps + (1 << 31)) % (1 << 32) - (1 << 31)

@@ -103,7 +103,7 @@ class Pmc006(Memory, Device):
         off: int = 100,
         progress: OnProgress | None = None,
     ) -> MotionResult:
-        """Find the edge of EXT1 or EXT2, and set the position to 0 at a distance of `off` steps from it.
+        """Find the switching point of EXT1 or EXT2; position 0 is `off` steps from it.
 
         The start position is arbitrary; the switch may be active. Both stops are enabled during homing, and
         EXT flags are cleared. Afterwards speeds, direction and enabled stops are restored.
@@ -127,7 +127,7 @@ class Pmc006(Memory, Device):
     def outputs(self) -> int:
         """Levels of GPO5 to GPO1 (bits 4 to 0).
 
-        The value includes a level that a stall has set. An assignment writes all five levels.
+        A stall may have set GPO5. An assignment writes all five levels.
         """
         return self.ports().outputs
 
@@ -173,7 +173,7 @@ class Pmc006(Memory, Device):
             return
         if Pmc006(self.line, address)._is_connected():
             raise DuplicateAddress(f"{self.line.name}: address {address} is taken: choose another one")
-        # The reply already uses the new address.
+        # The reply to the instruction already contains the new address.
         for _ in range(ATTEMPTS):
             got = self.line.exchange(self.address, Code.ADDRESS, address, answers=address)
             if not isinstance(got, MissingReply) or Pmc006(self.line, address)._is_connected():

@@ -1,4 +1,4 @@
-"""Settings of a PMC006B4: instruction codes, ranges, units, and whether `save` stores them.
+"""Settings of a PMC006B4: instruction codes, ranges, units, and whether `save` stores a setting.
 
 Each setting is a property of `Settings`.
 """
@@ -60,9 +60,9 @@ class Setting:
         text: purpose of the setting.
         unit: unit of the value.
         saved: True if `save` stores it.
-        shift: lowest bit in the word that is read.
-        bits: number of bits.
-        word: number of bits of the word that is read.
+        shift: position of the lowest bit of the setting in the reply.
+        bits: number of bits of the setting.
+        word: number of bits of the reply that are used.
     """
 
     write: Code
@@ -114,21 +114,21 @@ class Setting:
     def _plausible(self, data: int) -> bool:
         """Return True if a reply can have this value.
 
-        The value is that of the setting, or a word with the setting in some of its bits.
+        The reply contains the value of the setting, or a word in which some bits are the setting.
         """
         return data == 0 or (data in self.accepts if self.word == 32 else 0 < data < 1 << self.word)
 
     def data(self, value: int) -> int:
-        """Return the data to send for a value."""
+        """Return the data that are sent to set this value."""
         return value
 
     def known(self, data: int) -> int:
-        """Return the value for data that were read."""
+        """Return the value of the setting for data that were read."""
         return data
 
 
 class FullSteps(Setting):
-    """Number of microsteps. Full step is 0 in the part, but 1 for users."""
+    """Number of microsteps per full step. For full steps, the part uses 0, but users write 1."""
 
     hint = "; 1 is the full step"
 
@@ -143,7 +143,7 @@ _InStatus1 = partial(Setting, word=STATUS_1_BITS, bits=1)
 _InStatus2 = partial(Setting, word=STATUS_2_BITS, saved=False)
 _SPEED = (range(65, 3001), "65 to 3000")
 _SHOW_A_RESET = ("direction", "stops", "max_speed")
-"""Settings that `save` does not store. One instruction reads each of them."""
+"""Settings that a reset changes, because `save` does not store them; each has an instruction to read it."""
 
 
 class Settings(StationLink):
@@ -154,14 +154,14 @@ class Settings(StationLink):
     """
 
     def remember(self, name: str) -> None:
-        """Read a setting and record its value for `was_reset`, unless a value is recorded already."""
+        """Read a setting and store its value for `was_reset`, unless a value is already stored."""
         if name not in self.unsaved:
             self.unsaved[name] = getattr(self, name)
 
     def was_reset(self) -> bool:
-        """Return True if a setting that a reset changes differs from its recorded value.
+        """Return True if one of the settings that a reset changes differs from its stored value.
 
-        The method cannot detect a reset if these settings had their factory values before it.
+        If all these settings had their factory values before a reset, the method cannot detect it.
         """
         return any(getattr(self, name) != value for name, value in self.unsaved.items())
 

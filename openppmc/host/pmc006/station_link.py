@@ -28,7 +28,7 @@ from .wire import FACTORY, PORT_BITS, STATUS_1_BITS, STATUS_2_BITS, Code, Flags,
 PART = "pmc006"
 BAUD, SLOWEST, FASTEST = 9600, 1200, 115_200
 DROPPED_AFTER = 200
-"""Bit times without a character after which a controller has discarded an incomplete frame.
+"""Time without a character after which a controller has discarded an incomplete frame, in bit times.
 
 The part needs 192 bit times; the other 8 are a reserve.
 """
@@ -46,7 +46,8 @@ class Line(Master[Reply]):
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
         patience: time in s that the master waits for a reply in addition to the transmission time on the
             line.
-        unsynchronised: addresses that did not reply to a frame, and whose reply may still arrive.
+        unsynchronised: addresses of controllers that did not reply to a frame, so that a reply may still
+            arrive later.
 
     Raises:
         PortError: the port cannot be opened.
@@ -101,7 +102,7 @@ class StationLink(Checked):
     Attributes:
         address: 1 to 120, or 255.
         alone: True if this program uses only one controller. Then messages do not name the controller.
-        unsaved: last known values of settings that a reset changes.
+        unsaved: last known values of those settings that a reset changes.
     """
 
     line: Line
@@ -147,11 +148,11 @@ class StationLink(Checked):
         """Send an instruction and return the data of its reply, signed.
 
         Args:
-            good: returns True for data that a reply can have. Any other data mean that the reply is damaged
-                or belongs to another instruction.
+            good: function that returns True for data that a reply to this instruction can have. With any
+                other data, the reply is damaged or belongs to another instruction.
             resolve: called after each attempt without a reply. It returns the reply if the instruction was
                 executed, or `None` if it was not executed and may be repeated. It may raise an exception.
-            sure: if False, data that are not good are returned after they were received twice.
+            sure: if False, data for which `good` returns False are returned after they were received twice.
             risky: True if the caller must know whether the instruction was executed.
 
         Raises:
@@ -186,9 +187,9 @@ class StationLink(Checked):
     def _synchronise(self, misses: list[MissingReply]) -> bool:
         """Synchronise instructions and replies after a missing reply; return False if that fails.
 
-        A reply does not identify its instruction. A late reply would therefore be accepted as the reply to
-        the next instruction. The method sets the word pointer, whose value is not used, until a reply
-        contains this value. Missing replies are appended to `misses`.
+        A reply does not identify its instruction, so a late reply would be accepted as the reply to the next
+        instruction. The method writes a new value to the word pointer, and repeats this until a reply
+        contains the value that was written last. Missing replies are appended to `misses`.
         """
         if self.address not in self.line.unsynchronised:
             return True
@@ -246,7 +247,7 @@ class StationLink(Checked):
         return self.execute(Code.POSITION)
 
     def was_reset(self) -> bool:
-        """Return True if a setting that a reset changes differs from its recorded value."""
+        """Return True if one of the settings that a reset changes differs from its last known value."""
         raise NotImplementedError
 
     def version(self) -> str:
@@ -255,7 +256,7 @@ class StationLink(Checked):
         return f"V{value >> 16}.{value >> 8 & 0xFF}.{value & 0xFF}"
 
     def _is_connected(self) -> bool:
-        """Return True if the controller replies to a poll, which is repeated once after noise.
+        """Return True if the controller replies to a poll; after noise, the poll is repeated once.
 
         Raises CorruptReply if both replies are corrupt.
         """

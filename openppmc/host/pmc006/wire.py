@@ -161,9 +161,9 @@ class Ports:
 
 
 class Storage(IntEnum):
-    """Result of the last save, burn or restore of the EEPROM, read with `V`.
+    """Reply to `V`: result of the last save, burn or restore of the EEPROM.
 
-    Only this replacement has the instruction V; the original part does not have it.
+    The original part does not have the instruction V.
     """
 
     KEPT = 0
@@ -172,14 +172,17 @@ class Storage(IntEnum):
 
 
 STATUS_1_BITS, STATUS_2_BITS, PORT_BITS = 5, 6, 12
-"""Number of bits that each of these read-outs uses; a reply with other bits set is invalid."""
+"""Number of bits in use of status 1, status 2 and the word of the ports.
+
+A reply with other bits set is invalid.
+"""
 
 
 # Errors of a PMC006B4. `status` is the data of the reply.
 
 
 class SettingRefused(CommandRefused):
-    """The part rejected the value for a setting; `status` is the active value, which is unchanged."""
+    """The part rejected the value for a setting. The active value is unchanged; `status` holds it."""
 
 
 class ExtStopActive(CommandRefused):
@@ -219,7 +222,7 @@ class ProgramVerifyFailed(CommandRefused):
 
 
 def locked(numbers: tuple[int, ...], prefix: str = "") -> ExtStopActive:
-    """Return the exception for these EXT flags.
+    """Return the exception for a start that these EXT flags prevent.
 
     >>> str(locked((1,)))
     'EXT1 has stopped the motor: clear the flag (clear_stops, reset-flags), then move off the switch'
@@ -279,11 +282,11 @@ def _sealed(body: bytes) -> bytes:
 class Receiver:
     """Receiver for the bytes after a frame to `address`; see `host.line.ReplyReceiver`.
 
-    Replies of other controllers and damaged replies are skipped, because the expected reply may follow.
-    `fault` reports them.
+    Replies of other controllers, and damaged replies, are skipped, because the expected reply may follow. The
+    property `fault` then states the reason.
 
     Args:
-        sent: the frame that was sent. It is skipped if the master receives its own bytes.
+        sent: frame that was sent. If the master receives its own bytes, this frame is skipped.
     """
 
     def __init__(self, address: int, sent: bytes = b"") -> None:

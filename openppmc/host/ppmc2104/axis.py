@@ -49,12 +49,13 @@ class TwoAxisPart(Protocol):
 class Axis2104(Axis):
     """Axis 1 or 2 of a PPMC-2104; see `axis.Axis` for the motions.
 
-    `part` has the functions that concern both axes.
+    The attribute `part` has the functions that concern both axes.
 
     Limits of `initialise` for a 16 MHz crystal: start_pps from 488.3; high_pps up to 250 000, with a rate
-    byte at least 2 below that of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000 or 125 000 Hz.
-    positive_logic and long_intervals are not supported. On an initialised axis, phases, half_step, chop and
-    the choice of an external clock are unchanged until `excitation_off` or `reset` (P2104-INI-05).
+    byte that is at least 2 lower than the rate byte of start_pps; ramp_pulses 4 to 11 220; base_clock 500 000
+    or 125 000 Hz. positive_logic and long_intervals are not supported. On an initialised axis, phases,
+    half_step, chop and the choice of an external clock are unchanged until `excitation_off` or `reset`
+    (P2104-INI-05).
     """
 
     kind = CAPABILITIES
@@ -97,7 +98,7 @@ class Axis2104(Axis):
         self.part._other_axis(self.number)._resolve(status)
 
     def _resolve(self, status: int) -> None:
-        """Process a value of the status register; if BUSY = 0, read how the motion ended."""
+        """Process a value of the status register. If BUSY = 0, read how the motion ended."""
         if self._motion is not None and not self._motion.over:
             self._motion._on_status(status)
         elif not status & self._busy_mask:
@@ -113,7 +114,7 @@ class Axis2104(Axis):
     def _refused_start_motion(self, request: MotionRequest, refused: StartRefused) -> Motion:
         """Return a motion that a switch ended before its first pulse.
 
-        If no switch is active any more, raise the exception of the rejection instead.
+        If no switch is active when the inputs are read, the exception of the rejection is raised instead.
         """
         inputs = self.inputs()
         cause = Cause.COMPLETE
@@ -139,15 +140,15 @@ class Axis2104(Axis):
                 error.status, f"{self._message_prefix}nothing to stop: it is not initialised"
             ) from None
         except IncompleteCommand:
-            # The error means that the stop has ended a command that was waiting for data. The stop itself has
-            # taken effect (P2104-STP-07).
+            # The part reports this error because the stop has ended a command that was waiting for data. The
+            # stop itself has been executed (P2104-STP-07).
             pass
 
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        In a motion at constant speed, and while the part waits for RUN, it rejects a stop with a ramp
-        (P2104-STP-03). In both cases, the part accepts an immediate stop.
+        The part rejects a stop with a ramp in a motion at constant speed, and while it waits for RUN
+        (P2104-STP-03). In both cases, it accepts an immediate stop.
         """
         motion = self._motion
         try:

@@ -22,7 +22,7 @@ from .registers import BY_NUMBER, CAPABILITIES, Status, command_error
 READ_ERROR, AUX_INPUT, AUX_OUTPUT = 0x86, 0xC2, 0xC1
 ALL_HIGH = 0xFF
 CSEL, RUN, PINS_OF_1 = (0x01, 0x02), (0x04, 0x08), 0x80
-"""Bits of the straps: csel and run of each axis; the bit that selects the axis for PINS."""
+"""Bits of the straps: csel of each axis, run of each axis, and the bit that selects the axis for PINS."""
 
 
 class Axes(dict[int, Axis2104]):
@@ -54,8 +54,8 @@ class Ppmc2104(Part):
         self._levels = ALL_HIGH
         self._clear_errors()
         busy = self.status().busy
-        # These motions were started by another program. If that program was aborted, such an axis may still
-        # wait for RUN, and it must not start now.
+        # These motions were started by another program. If it was aborted, such an axis may still wait for
+        # RUN. It must not start now.
         self._foreign = {number for number in self.axis if busy[number - 1]}
         self._run_held = set(self._foreign)
         for number in set(self.axis) - self._foreign:
@@ -119,7 +119,7 @@ class Ppmc2104(Part):
     ) -> tuple[Motion, Motion]:
         """Start two moves in the same cycle: both commands wait until RUN of both axes rises.
 
-        If one command is rejected, neither axis moves.
+        If the part rejects one of the commands, neither axis moves.
 
         Raises:
             OutOfRange: a number of pulses is 0.
@@ -149,7 +149,8 @@ class Ppmc2104(Part):
     def _cancel_start(self) -> None:
         """Cancel a common start that failed, so that no axis waits for RUN any more.
 
-        If only the answer was lost, the axes are already running; they stop with a ramp.
+        If the start was executed and only its answer was lost, the axes are already running. They stop with a
+        ramp.
         """
         try:
             for axis in self.axis.values():
@@ -209,14 +210,14 @@ class Ppmc2104(Part):
         return Script().straps(self._run_low(self._run_held - {number}))
 
     def _set_idle(self, number: int) -> None:
-        """Record that this axis does not wait for RUN."""
+        """Store that this axis does not wait for RUN."""
         self._run_held.discard(number)
         self._foreign.discard(number)
 
     def _resolve_foreign(self, number: int) -> None:
-        """Read the end status of a motion of another program once; int_n stays low until this read.
+        """Read the end status of a motion that another program started; int_n stays low until this read.
 
-        The motion on this axis has ended.
+        The motion of this axis has ended. The status is read only once.
         """
         if number in self._foreign:
             self._foreign.discard(number)
@@ -226,7 +227,7 @@ class Ppmc2104(Part):
         self.link.execute(Script().call(READ_FINISH | self.axis[number]._code_bits).get(1))
 
     def _run_low(self, axes: set[int]) -> int:
-        """Return the straps in which RUN of these axes is low."""
+        """Return the straps, with RUN of these axes low."""
         return self._levels & ~sum(RUN[axis - 1] for axis in axes)
 
     def _select_pins(self, number: int) -> Script:
@@ -264,7 +265,7 @@ class Ppmc2104(Part):
     def _error_reads(self) -> Script:
         """Return a script that reads and clears both error registers.
 
-        It does not use CALL, because an error of the other axis ends CALL.
+        The script does not use CALL, because an error of the other axis would end CALL.
         """
         script = Script()
         for bit in (0, AXIS_BIT):
@@ -274,8 +275,8 @@ class Ppmc2104(Part):
     def _clear_errors(self) -> None:
         """Clear errors, unfinished commands and unread answers of another program.
 
-        The code is written twice. If a command waits for data, the part discards the first code and ends the
-        command. The second code is executed.
+        The code of the instruction that reads the error is written twice. If a command waits for data, the
+        part discards the first code and ends the command. The second code is executed.
         """
         self.link.execute(
             Script()

@@ -35,7 +35,7 @@ from ..speeds import Number, exact, nearby
 
 
 class IncompleteCommand(CommandRefused):
-    """Error 3 of the PPMC-2104: a command arrived while the part waits for the data of another command."""
+    """Error 3 of the PPMC-2104: a command arrived while the part was waiting for the data of another one."""
 
     text = (
         "the part was still waiting for the data of another command, and both are dropped: another program "
@@ -107,7 +107,7 @@ class Status:
 
     Attributes:
         busy: BUSY of axis 1 and of axis 2.
-        working: for axis 1 and axis 2, True if data are required or a command is in progress.
+        working: CMND of axis 1 and of axis 2: True if a command waits for data or is being processed.
         error: True if an error register is not 0.
     """
 

@@ -26,10 +26,10 @@ class Status:
 
     Attributes:
         raw: condition byte of the response.
-        run_monitored: starts wait for RUN.
+        run_monitored: True if starts wait for RUN.
         interlock: True if the interlock control is active.
         encoder_watched, position_watched: True if this monitor is on.
-        encoder_outside, position_outside: True if this monitor reports a deviation.
+        encoder_outside, position_outside: True if the deviation exceeds the range of this monitor.
         overrides: number of registered overrides, 0 to 8.
         override_events: numbers (1, 2) of the event inputs for which at least one override waits.
         events: numbers (1, 2) of the event buffers that are not empty.
@@ -87,7 +87,7 @@ class Inputs:
     """Switches and other inputs; True = active (pin low).
 
     Attributes:
-        run: True if starts are permitted.
+        run: True if the input RUN permits starts.
     """
 
     limit_cw: bool
@@ -136,7 +136,7 @@ class EventBuffer:
     """Response to instruction 47: content of an event buffer.
 
     Attributes:
-        following: index in `codes` of the instruction that the next event executes, 0 to 3.
+        following: index, 0 to 3, in `codes` of the instruction that the next event executes.
         codes: codes of the instructions in the buffer.
     """
 
@@ -244,7 +244,7 @@ class Executed:
 class Failed:
     """An override or an event did not execute its instruction.
 
-    The report is response F8 or F9, or an error response with the header of an event.
+    The part reports this with response F8 or F9, or with an error response whose header names an event.
     """
 
     by: Source
@@ -285,7 +285,7 @@ class Response:
 
     @property
     def by(self) -> Source:
-        """Source of the instruction to which this is the response."""
+        """Source of the instruction to which this block is the response."""
         return Source(self.raw[0] & _WHO | 0x03)
 
     @property

@@ -23,8 +23,8 @@ CW, CCW = 0, 1
 WHOLE, LAST_DATA, MORE_DATA, OPENING = 0x03, 0x01, 0x00, 0x02
 """Headers of blocks.
 
-Their order: complete instruction; last data block; data block before further data blocks; code block before
-data blocks.
+They are the headers, in this order, of a complete instruction, of the last data block, of a data block that
+other data blocks follow, and of a code block that data blocks follow.
 """
 LONGEST = 32
 WINDOW = 0x20
@@ -35,7 +35,7 @@ _DIRECTION, _OVERRIDE, _INDEX, _SEPARATE, _SIGMOID = 0x40, 0x04, 0x10, 0x10, 0x0
 class Trigger(Enum):
     """Condition that starts a registered instruction.
 
-    The value is that of the fields OV and TRG in the flag byte.
+    The value contains the fields OV and TRG of the flag byte.
     """
 
     NOW = 0x00
@@ -57,7 +57,7 @@ def block(code: int, parameters: bytes = b"", header: int = WHOLE) -> bytes:
 
 
 def bus_order(logical: bytes) -> bytes:
-    """Return the bytes in the order of the bus, the header last."""
+    """Return the bytes of a block in the order in which the bus transfers them; the header is last."""
     return logical[::-1]
 
 
@@ -177,7 +177,7 @@ def interlock_position(position: int) -> bytes:
 
 
 def speed_limit(rate: int) -> bytes:
-    """Return instruction 05: set the speed limit at the slow-down limits as a rate.
+    """Return instruction 05: set, as a rate, the speed limit that applies at a slow-down limit.
 
     >>> speed_limit(300).hex(" ")
     '03 03 05 01 2c'
@@ -261,7 +261,7 @@ def run(direction: int, rate: int = 0, ramped: bool = False, trigger: Trigger = 
 def origin_search(direction: int, rate: int, index: bool = False) -> bytes:
     """Return instruction 10: run at constant speed to the origin switch or its first index pulse.
 
-    The encoder outputs the index pulse while the switch is active.
+    With `index`, the search ends when the switch is active and the index pulse is present.
 
     >>> origin_search(CCW, 500, index=True).hex(" ")
     '03 04 10 50 01 f4'

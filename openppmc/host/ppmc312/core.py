@@ -35,8 +35,8 @@ class Instructions(Protocol):
     def answers(self) -> int:
         """Number of responses so far.
 
-        The part sends a report that follows a response only after it has executed the instruction of this
-        response.
+        If a report arrives after a response, the part has executed the instruction of this response before it
+        sent the report.
         """
 
     def open(self) -> None:
@@ -59,10 +59,10 @@ class Core(Checked, Generic[MotionT]):
     """Registers, positions, terminals and reports; see `ppmc312.Ppmc312`.
 
     Attributes:
-        setup: table that this object has loaded last, `None` before the first.
-        reports: unsolicited reports that the caller has not fetched yet, oldest first. The ends of motions
-            that this object started are not in this list, but in the `result` of each motion. If there are
-            more than 1000 reports, the oldest are dropped.
+        setup: table that this object has loaded last, `None` if it has loaded none.
+        reports: unsolicited reports that the caller has not fetched yet, oldest first. A report of the end of
+            a motion that this object started is not stored here; it sets the `result` of the motion. If there
+            are more than 1000 reports, the oldest are dropped.
     """
 
     kind: TableCapabilities
@@ -86,7 +86,7 @@ class Core(Checked, Generic[MotionT]):
         self.window.open()
 
     def _make_window(self) -> Instructions:
-        """Create the transport of instructions to the part and of responses back."""
+        """Create the transport for instructions to the part and for its responses."""
         raise NotImplementedError
 
     def _make_motion(self, requested: int | None, direction: int, begin: int | None) -> MotionT:
@@ -99,7 +99,7 @@ class Core(Checked, Generic[MotionT]):
         return self._motion
 
     def _annotate(self, end: MotionResult) -> MotionResult:
-        """Return the result with the message prefix and the alarm name of this part."""
+        """Return the result `end` with the message prefix and the alarm name of this part."""
         return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
 
     # ------------------------------------------------------------------ instructions
@@ -115,7 +115,7 @@ class Core(Checked, Generic[MotionT]):
         return response.data
 
     def _wrong_answer(self, response: Response, code: int) -> ProtocolError:
-        """Return the exception for a response to another instruction."""
+        """Return the exception for a response that does not belong to the instruction `code`."""
         return ProtocolError(
             f"{self.link.name}: the part answers {response.code:02X} to {code:02X}: does another "
             "program use it?"
@@ -132,7 +132,7 @@ class Core(Checked, Generic[MotionT]):
     # ------------------------------------------------------------------ reports
 
     def _on_response(self, response: Response) -> None:
-        """Process a response that is not for an instruction of this object."""
+        """Process a response or report that does not belong to an instruction of this object."""
         try:
             report = response.report()
         except BadResponse as error:
@@ -189,7 +189,8 @@ class Core(Checked, Generic[MotionT]):
         """Pulse position of the part, CW positive. The call is allowed at any time.
 
         Raises:
-            ProtocolError: the position is 0 because the part was reset. The call after this error returns 0.
+            ProtocolError: the position is 0 because the part was reset. The next call after this error
+                returns 0.
         """
         return self._check_position(self._position(False))
 
@@ -215,9 +216,9 @@ class Core(Checked, Generic[MotionT]):
         return signed(int.from_bytes(data[1:5], "big"))
 
     def _position_of(self, count: int) -> int | None:
-        """Return a position unchanged.
+        """Return the position that a pulse count means: here, the count itself.
 
-        The drivers of other parts may return `None` here.
+        In the drivers of other parts, the result may be `None`.
         """
         return count
 
@@ -295,9 +296,10 @@ class TableRead:
     """Table as stored in the part, fastest stage first.
 
     Attributes:
-        rates: pulse intervals in base clock cycles.
+        rates: pulse interval of each stage, in base clock cycles.
         up: pulses of each stage of the acceleration.
-        down: pulses of each stage of the deceleration; empty if it is the reversed acceleration.
+        down: pulses of each stage of the deceleration; empty if the deceleration is the reversed
+            acceleration.
     """
 
     rates: tuple[int, ...]
@@ -332,7 +334,7 @@ class Settings(Core[MotionT]):
             ramp_pulses: pulses from start to high speed, 24 bits.
             stop_pps: final speed of a separate deceleration ramp.
             down_pulses: pulses of a separate deceleration ramp.
-            sigmoid: S-shaped ramps.
+            sigmoid: True for S-shaped ramps.
             base_clock: 8e6, 1e6, 500e3, 250e3, 62.5e3 or 15.625e3 Hz at a 16 MHz crystal; `None`: the fastest
                 clock that reaches the start speed and the stop speed.
             external_clock: frequency at the pin EXTCK in Hz.
@@ -421,8 +423,9 @@ class Settings(Core[MotionT]):
         """Set the in-position monitor, which reports at standstill (`InPositionChange`).
 
         Args:
-            distance: report when the difference of pulses and encoder exceeds this number (1 to 65 535), and
-                when it no longer does; `None`: monitor off.
+            distance: largest permitted difference of pulse position and encoder position, 1 to 65 535. The
+                part reports when the difference exceeds it, and when the difference is permitted again.
+                `None` switches the monitor off.
             auto: True for a report of each change, False for one report.
             clamp: True if ZCLMP is active while the difference does not exceed `distance`.
         """
@@ -431,20 +434,22 @@ class Settings(Core[MotionT]):
     def watch_encoder(self, distance: int | None, auto: bool = True) -> None:
         """Set the encoder monitor, which also reports during motions (`EncoderChange`).
 
-        The monitor detects lost steps and a motor that does not move. Arguments as for `watch_position`.
+        The monitor detects lost steps and a motor that does not move. The arguments are those of
+        `watch_position`.
         """
         self.instruct(blocks.encoder_watch(distance is not None, distance or 0, auto))
 
     def limit_speed(self, pps: speeds.Number) -> None:
         """Set the speed limit that applies while a slow-down limit is active.
 
-        The motor runs below this speed. Default: the high speed.
+        While a slow-down limit is active, the motor runs below this speed. Each new table sets the limit to
+        its high speed.
         """
         rate = self.known_setup().clock.choose(pps).rate
         self.instruct(blocks.speed_limit(rate))
 
     def monitor_end(self, on: bool) -> None:
-        """Set whether a motion only ends when the input END is active."""
+        """Set whether a motion ends only when the input END is active."""
         self.instruct(blocks.end_terminal(on), 4)
 
     def monitor_run(self, on: bool) -> None:

@@ -1,4 +1,4 @@
-"""Errors and alarms of the PPMC-312 as exceptions, one class per reason.
+"""Errors and alarms of the PPMC-312 as exceptions, with one class for each reason.
 
 `host.errors` has the base class.
 
@@ -20,7 +20,7 @@ class ParameterRefused(CommandRefused):
     """Error F0: the part does not accept a value.
 
     Attributes:
-        number: error number of the value.
+        number: number of the error, which identifies the rejected value.
         echo: instruction as the part received it.
     """
 
@@ -40,13 +40,13 @@ class CurveRefused(ParameterRefused):
 
 
 class UnexpectedInstruction(CommandRefused):
-    """Errors F1 01 and F1 02: a data block outside a free curve, or an instruction within a free curve."""
+    """Errors F1 01 and F1 02: a data block without a free curve, or another instruction before its end."""
 
     text = "the part did not expect this block: another program may be using it; send the command again"
 
 
 class InAlarm(CommandRefused):
-    """Error F1 in state ABN: the part is in alarm."""
+    """Error F1 in state ABN: the part is in the alarm state."""
 
     text = "the part is in alarm: remove the cause, then clear the alarm (or reset)"
 

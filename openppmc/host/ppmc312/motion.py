@@ -71,8 +71,8 @@ class Motion(Handle):
         begin: position before the motion, `None` if another program started the motion.
         waited_for_run: True if the motion waited for RUN when it was started.
         shape: shape that the part reported for a move with ramps.
-        stop_ordered: True if a stop was sent. If the part then reports the end of a deceleration, the cause
-            is this stop, not a slow-down limit.
+        stop_ordered: True if a stop was sent. If the part then reports that the motion ended by deceleration,
+            the cause is this stop, not a slow-down limit.
     """
 
     requested: int | None
@@ -102,7 +102,7 @@ class Motion(Handle):
     def _on_stop_report(self, report: Stopped) -> None:
         """Process the report that the motion has ended.
 
-        The end is confirmed if the position matches the requested pulses.
+        The end is confirmed only if the position matches the number of requested pulses.
         """
         cause = _CAUSES[report.cause]
         if report.cause is Bit.LOW and not self.stop_ordered:
@@ -129,7 +129,7 @@ class Motion(Handle):
         self._part._known_position = report.position
 
     def _not_confirmed(self, reason: str, report: Stopped | None = None) -> None:
-        """Record that the motion is over, but that the report of its end is wrong or missing."""
+        """Store that the motion is over, but that the report of its end is wrong or missing."""
         position = self._part._position(False) if report is None else report.position
         self._part._known_position = position
         done = None if self.begin is None else signed((position - self.begin) % COUNTS)

@@ -33,11 +33,11 @@ REGISTERED, IN_USE, FULL, DELETED, EMPTY_NOW, NOTHING = range(6)
 class Overrides(Settings[MotionT]):
     """Overrides and event buffers; see `ppmc312.Ppmc312`.
 
-    Up to eight overrides can be registered; they are executed in the order of their registration. Each
-    override waits for a position (`at`) or for event input 1 or 2 (`event`). Overrides remain registered
-    after the end of a motion, until the next table is loaded. A report contains the result of an override
-    (`Executed`, `Failed`). Read this report before the next override is executed; otherwise the part enters
-    the alarm state. All methods may raise RegistrationRefused.
+    An override waits for a position (`at`) or for event input 1 or 2 (`event`). Up to eight overrides can be
+    registered; they are executed in the order of their registration. Overrides remain registered after the
+    end of a motion, until the next table is loaded. A report contains the result of an override (`Executed`,
+    `Failed`). Read this report before the next override is executed; otherwise the part enters the alarm
+    state. All methods may raise RegistrationRefused.
     """
 
     # ------------------------------------------------------------------ overrides
@@ -105,10 +105,10 @@ class Overrides(Settings[MotionT]):
     # ------------------------------------------------------------------ event buffers
 
     def event_add(self, event: int, block: bytes) -> None:
-        """Append an instruction (`move_block`, `blocks`) to event buffer 1 or 2.
+        """Append an instruction, for example the result of `move_block`, to event buffer 1 or 2.
 
-        A buffer holds four instructions. Each falling edge of the event input executes the next instruction,
-        cyclically.
+        A buffer holds four instructions. Each falling edge of the event input executes the next instruction;
+        after the last one, the first one follows.
 
         During this call, the motor must be stopped.
         """
@@ -186,7 +186,7 @@ class Axis(Overrides[MotionT]):
     # ------------------------------------------------------------------ motions
 
     def start_move(self, pulses: int, pulse_only: bool = False) -> MotionT:
-        """Start a move with ramps: 1 to 2^32 - 1 pulses in either direction."""
+        """Start a move with ramps of 1 to 2^32 - 1 pulses in either direction."""
         if pulse_only:
             self.kind.need(PULSE_ONLY)
         return self._start(self.move_block(pulses), _side(pulses), abs(pulses))
@@ -221,11 +221,14 @@ class Axis(Overrides[MotionT]):
         return self._start(blocks.run(direction, rate, high), direction)
 
     def step(self, direction: int) -> MotionResult:
-        """Output one pulse."""
+        """Output one pulse in this direction."""
         return self._start(blocks.single_step(direction), direction, 1).wait().check(1)
 
     def search(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
-        """Run at constant speed (default: start speed) to the origin switch, or its first index."""
+        """Run at constant speed to the origin switch or, with `index`, to the first index pulse on it.
+
+        The default speed is the start speed.
+        """
         return self._start(blocks.origin_search(direction, self._search_rate(pps), index), direction)
 
     def zero_return(self, direction: int, pps: speeds.Number | None = None, index: bool = False) -> MotionT:
@@ -282,7 +285,7 @@ class Axis(Overrides[MotionT]):
     def stop(self, wait: bool = True) -> MotionResult | None:
         """Stop with a ramp; return the result, or `None` if wait is False.
 
-        The call is no error if the motor has just stopped.
+        If the motor has just stopped without the call, the call is not an error.
 
         Raises:
             NothingToStop: the motor was stopped.
@@ -300,7 +303,7 @@ class Axis(Overrides[MotionT]):
     def _request_stop(self, now: bool = False) -> None:
         """Request a stop of the motion that this object started, without waiting.
 
-        If the motion has already ended, the call is no error.
+        If the motion has already ended, the call is not an error.
         """
         try:
             self.instruct(blocks.immediate_stop() if now else blocks.slow_stop())
@@ -347,7 +350,7 @@ class Axis(Overrides[MotionT]):
         return motion
 
     def _search_rate(self, pps: speeds.Number | None) -> int:
-        """Return the rate of a constant speed; without a speed, the rate of the reached start speed."""
+        """Return the rate of a constant speed; without a speed, the rate of the start speed as reached."""
         if pps is not None:
             return self.rate_of(pps)
         setup = self.known_setup()
@@ -378,8 +381,8 @@ class Ppmc312(Axis[Motion], Part):
 
     Directions are 0 or CW, 1 or CCW. Speeds are in pulses per second; the speeds of motions must be within
     the table. Pulses and positions are signed, CW positive. Any method may raise LinkErrors; instructions
-    raise the errors of the part (CommandRefused, `errors`). `Axis` has the motions, `core.Settings` the
-    settings and tables, `Overrides` the overrides and events, `core.Core` the registers and outputs.
+    raise the errors of the part (CommandRefused, `errors`). `Axis` defines the motions, `core.Settings` the
+    settings and tables, `Overrides` the overrides and events, and `core.Core` the registers and outputs.
     """
 
     kind = CAPABILITIES
@@ -413,7 +416,10 @@ class Ppmc312(Axis[Motion], Part):
     def _execute_moves(
         self, moves: Sequence[int], pps: speeds.Number | None
     ) -> tuple[list[Motion], PpmcError | None]:
-        """Execute moves with one frame; return the started motions, and the error that ended the frame."""
+        """Execute moves with one frame.
+
+        Returns the motions that were started, and the error that ended the script, if any.
+        """
         motions: list[Motion] = []
         begin: int | None = None
         error: PpmcError | None = None

@@ -29,7 +29,7 @@ from .errors import command_error
 # Free curves of the PPMC-312: 2 to 127 stages from a list or a CSV file.
 
 LEAST_TICKS = 256
-"""Shortest duration of a stage in base clock cycles (pulses times rate) that the data sheet permits."""
+"""Shortest duration of a stage that the data sheet permits, in base clock cycles (pulses times rate)."""
 
 
 class Stage(NamedTuple):
@@ -37,8 +37,8 @@ class Stage(NamedTuple):
 
     Attributes:
         pps: speed.
-        up: pulses at this speed while accelerating.
-        down: pulses at this speed while decelerating; `None` if the stage is not part of the deceleration.
+        up: pulses at this speed during the acceleration.
+        down: pulses at this speed during the deceleration; `None` if the stage is not part of it.
     """
 
     pps: float
@@ -113,14 +113,14 @@ def plan_stages(
     base_clock: units.Number | None = None,
     external_clock: units.Number | None = None,
 ) -> Setup:
-    """Return the set-up of `plan_curve` with a base clock that reaches the speed of the slowest stage."""
+    """Select a base clock that reaches the speed of the slowest stage; return the set-up of `plan_curve`."""
     rows = [tuple(row) for row in stages]
     slowest = min((float(row[0] or 0) for row in rows), default=0.0)
     return plan_curve(choose_clock(xtal_hz, slowest, base_clock, external_clock), rows)
 
 
 def _side(values: Sequence[int | None], name: str) -> list[int]:
-    """Return the pulses of the stages, beginning with the first stage that has pulses."""
+    """Return the pulses of the stages for one ramp, beginning with the first stage that has pulses."""
     given = [place for place, pulses in enumerate(values) if pulses is not None]
     if not given:
         return []
@@ -177,8 +177,8 @@ def _is_names(cells: Sequence[str]) -> bool:
 class TableCapabilities(Capabilities):
     """Capabilities of a part with 16-bit rates.
 
-    A speed is base clock / rate, and the table includes the selection of the base clock. The part has no
-    phase outputs, and no straps that select a function.
+    A speed is base clock / rate. The table of a set-up also selects the base clock. The part has no phase
+    outputs, and no straps that select a function.
     """
 
     def plan(self, xtal_hz: int, request: SetupRequest) -> Setup:
@@ -314,7 +314,7 @@ class Setup:
         return self.table.na
 
     def seconds(self, pulses: Sequence[int]) -> float:
-        """Return the duration of a ramp in s.
+        """Return the duration in s of a ramp with these numbers of pulses.
 
         The argument is `table.pa` for the acceleration and `table.pd` for the deceleration.
         """
@@ -385,8 +385,8 @@ pulses: 762 or more
 def _least(numbers: tuple[int, int, int], sigmoid: bool) -> list[int]:
     """Return the smallest permitted numbers of pulses for the acceleration and the deceleration.
 
-    The slowest stage of a ramp has the fewest pulses, so it defines the limit: 127 * (1 + Rs / RH) pulses for
-    all 127 stages (P312-TBL-04, P312-TBL-05).
+    The slowest stage of a ramp has the fewest pulses, so it determines the limit. A linear ramp over all 127
+    stages requires about 127 * (1 + Rs / RH) pulses (P312-TBL-04, P312-TBL-05).
     """
     start, stop, high = numbers
     speeds = tables.speeds(max(start, stop), high, sigmoid)

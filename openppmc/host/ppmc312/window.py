@@ -43,14 +43,18 @@ WAIT_READ = 0x70 | READ
 SHORTEST, MOST_REPORTS = 3, 64
 ANSWER_MS, READY_MS = 250, 50
 POSITION_SIZE, START_SIZE, STOPPED_SIZE, POSITION_BYTES = 8, 4, 8, 4
-"""Sizes in bytes: responses to a position read and to a start; report of an end; its position."""
+"""Sizes in bytes.
+
+They are the sizes of the response to a position read, of the response to a start, of the report that a motion
+has ended, and of the position in this report.
+"""
 
 
 class Window:
     """Transport of instructions through the block registers.
 
     Args:
-        arrived: called with each response that is not for an instruction of the host.
+        arrived: called with each response or report that does not belong to an instruction of the host.
     """
 
     def __init__(self, link: Link, arrived: Callable[[Response], None]) -> None:
@@ -81,7 +85,7 @@ class Window:
     # ------------------------------------------------------------------ instructions
 
     def execute(self, block: bytes, gives: int = SHORTEST, milliseconds: int = ANSWER_MS) -> Response:
-        """Execute an instruction; return its response, or the first block of it.
+        """Execute an instruction; return its response. If it has several blocks, return the first one.
 
         Args:
             gives: expected size of the response; it only affects the speed.
@@ -104,7 +108,7 @@ class Window:
     def execute_moves(
         self, first: bytes, moves: Sequence[bytes], milliseconds: int, on_answer: Callable[[Response], None]
     ) -> None:
-        """Execute a read of the position, and then moves, with one frame.
+        """Execute a read of the position, and then moves, all with one frame.
 
         The next move starts only if the part reports the normal end of the move before it, and no other
         report. Otherwise, the script ends.
@@ -136,13 +140,13 @@ class Window:
             self._on_answer = lambda response: None
 
     def next_block(self) -> Response:
-        """Return the next block of a response of several blocks."""
+        """Return the next block of a response that has several blocks."""
         return self._await(ANSWER_MS)
 
     def _await(self, milliseconds: int) -> Response:
         """Wait for the response to the host's instruction and return it.
 
-        Other responses may arrive before it.
+        Other responses and reports may arrive earlier.
         """
         for _ in range(MOST_REPORTS):
             if (found := self._exchange(self._append_read(Script().timeout(milliseconds), 8))) is not None:
@@ -152,7 +156,7 @@ class Window:
     def collect(self) -> None:
         """Read the pending responses.
 
-        A response to an instruction of the host is discarded, because no instruction waits for it.
+        A response to an instruction of the host is discarded, because no instruction waits for a response.
         """
         if self._state_unknown:
             self.open()
@@ -172,7 +176,7 @@ class Window:
 
     @staticmethod
     def _append_exact_read(script: Script, size: int, part: int = 0) -> Script:
-        """Append a wait for a response of `size` bytes, and a read of its first `part` bytes in bus order.
+        """Append a wait for a response of exactly `size` bytes, and a read of its first `part` bytes.
 
         If `part` is 0, the whole response is read.
         """
@@ -182,7 +186,8 @@ class Window:
     def _append_read(script: Script, gives: int) -> Script:
         """Append the operations that read a response.
 
-        Each response has at least SHORTEST bytes. Each further byte is read only if a byte is unread.
+        Each response has at least SHORTEST bytes. After these bytes, a byte is read only if an unread byte
+        remains.
         """
         script.wait(ADDRESS, MASK, LEFT).read_many(READ, SHORTEST).timeout(0)
         for _ in range(gives - SHORTEST):
@@ -190,10 +195,10 @@ class Window:
         return script
 
     def _exchange(self, script: Script, patient: bool = True) -> Response | None:
-        """Execute a script, then read the remaining bytes of its response; return the response.
+        """Execute a script, read the bytes of the response that it has not read, and return the response.
 
         Args:
-            patient: True if a missing response is an error.
+            patient: True to raise Timeout if no response arrives; False to return `None`.
 
         Returns:
             The response to the instruction of the host, if any.
@@ -220,8 +225,7 @@ class Window:
                 left = self._bytes_left
         failed = answer.failed
         if left and failed is not None and failed.code[0] == WAIT_READ and answer.result is Result.TIMED_OUT:
-            # The failed wait has already read the cause byte, which is not NORMAL.
-            # It belongs to the response.
+            # The failed wait has already read the cause byte of the response, which is not NORMAL.
             self._feed(left, [answer.last])
         if answer.result is Result.TIMED_OUT and (received or not patient):
             return found
@@ -241,7 +245,7 @@ class Window:
         """Process bytes of a response.
 
         Args:
-            left: number of unread bytes of the response before these bytes were read.
+            left: number of unread bytes of the response before `data` was read.
         """
         found = None
         for byte in data:

@@ -1,4 +1,4 @@
-"""Self-test: compares every recorded edge of every output of a board with the golden model.
+"""Self-test: compares every edge of every output of a part on a board with the golden model.
 
 `openppmc selftest` runs it.
 
@@ -8,5 +8,6 @@
     run        plays sections, compares and collects results
     page       result as text and JSON
 
-The `selftest` module of a part (column of the table of parts) defines the recorded pins and the stimuli.
+The table of parts has a column with the `selftest` module of each part, which defines the recorded pins and
+the stimuli.
 """

@@ -12,9 +12,9 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, ORIGIN, RAMP, ByteBus
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire
 
 ONCE, AN_AXIS = 32, 14
-"""Numbers of levels in a record: bus and shared pins together, each axis."""
+"""Number of pin levels in a record: once for the bus and the shared pins, and for each axis."""
 SHOWN = 3
-"""Number of axes that are started together. More axes would require a large recorder."""
+"""Largest number of axes that are started together. With more axes, the recorder would have to be large."""
 
 
 def axis(number: int) -> ByteBus:

@@ -20,7 +20,7 @@ HALF = 0x04
 TABLE_S = 0.006
 """Longest build time of a ramp table in s, with FAST timing at 8 MHz."""
 RECORDS_A_CODE, RECORDS_A_SLOW_CODE = 96, 512
-"""Numbers of records that one command code requires: with FAST timing, and with DATASHEET timing.
+"""Number of records that the test of one command code requires: with FAST timing, and with DATASHEET timing.
 
 With DATASHEET timing, the chopper runs longer.
 """
@@ -37,7 +37,7 @@ class Rates:
         high: high rate.
         ramp: pulses of the ramp, two bytes.
         slow: rate of constant speeds.
-        table: time in s after which the ramp table may be used with DATASHEET timing.
+        table: time in s from an initialisation until its ramp table may be used, with DATASHEET timing.
     """
 
     start: int = 249
@@ -57,9 +57,10 @@ class ByteBus:
     """Axis of a part on a byte bus.
 
     Attributes:
-        before: script that precedes each access.
+        before: script that is executed before each access.
         axis: bits of the axis in its command codes.
-        building: status bits that are set while a ramp table is built; 0 if the part has no such bits.
+        building: mask of the status bits that are set while a ramp table is built; 0 if the part has no such
+        bits.
         positive, chopped: bits of the initialisation code for positive logic and for the chopper; 0 if the
             code has no such bit.
     """
@@ -85,7 +86,7 @@ class ByteBus:
         access.read(COMMAND, 2)
 
     def _until(self, access: PartAccess, bits: int) -> None:
-        """Poll the status until these bits are 0, because a virtual board may be slow."""
+        """Poll the status until these bits are 0. A virtual board may be slow."""
         for _ in range(MOST_LOOKS):
             if not access.read(COMMAND)[0] & bits:
                 return
@@ -97,7 +98,7 @@ class ByteBus:
         return 2 | self.positive
 
     def initialise(self, access: PartAccess, code: int | None = None) -> None:
-        """Execute the default initialisation or another one; wait until the ramp table is complete."""
+        """Execute an initialisation, the default one or `code`; wait until the ramp table is complete."""
         self.command(access, (self.setup if code is None else code) | self.axis, *self.rates.data)
         self._is_built(access)
 
@@ -144,10 +145,10 @@ class ByteBus:
             self._is_built(access)
 
     def codes(self, identity: Identity, records: int, others: Sequence[ByteBus] = ()) -> list[Section]:
-        """Return sections with every code: first for the uninitialised part, then for the initialised part.
+        """Return sections that write every code, first to the uninitialised, then to the initialised part.
 
         Args:
-            others: further axes to initialise as well.
+            others: other axes, which are also initialised.
         """
         a_code = RECORDS_A_SLOW_CODE if identity.datasheet else RECORDS_A_CODE
         count = max(4, min(64, records // a_code))
@@ -175,7 +176,7 @@ class ByteBus:
     def motion(
         self, *steps: Callable[[PartAccess], None], code: int | None = None
     ) -> Callable[[PartAccess], None]:
-        """Return a function that initialises the axis and then plays these steps."""
+        """Return a function that initialises the axis and then executes these steps."""
 
         def play(access: PartAccess) -> None:
             self.initialise(access, code)

@@ -37,7 +37,7 @@ def board_name(build: Build | None) -> str:
 
 
 def verdict(found: SelfTestResult) -> str:
-    """Return the last line of the page, which states the result."""
+    """Return the last line of the page, which states whether the self-test has passed."""
     count = found.differences
     board = board_name(found.build)
     return f"{found.edges} edges compared on your {board}, {count} difference{'' if count == 1 else 's'}"

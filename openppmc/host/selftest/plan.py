@@ -1,7 +1,7 @@
 """Sections of a self-test, and the accesses of a section to the part.
 
-Every access of a section is recorded, cycle by cycle. To save records, a section does not poll: it writes,
-waits on the PC, and reads.
+Every access of a section is recorded, cycle by cycle. To save records, a section does not poll the part: it
+writes, waits without an access, and then reads.
 """
 
 from __future__ import annotations
@@ -16,9 +16,12 @@ from ..script import Identity, Script
 
 REGISTERS, COMMANDS, MOVES, SWITCHES = "registers", "commands", "moves", "switches"
 _GAP = 4
-"""Number of NOPs between two bytes. With FAST timing, the part accepts the first byte during these NOPs."""
+"""Number of NOP operations between two bytes.
+
+With FAST timing, they last long enough for the part to accept the first byte.
+"""
 _SLOW_BYTE = 0.003
-"""Seconds between two bytes with DATASHEET timing.
+"""Time in s between two bytes with DATASHEET timing.
 
 It exceeds all processing times, except the build time of a ramp table.
 """
@@ -28,7 +31,7 @@ class PartAccess:
     """Accesses to a part through a link.
 
     Attributes:
-        slow: True with DATASHEET timing, which needs one byte per frame.
+        slow: True with DATASHEET timing, which requires a separate frame for each byte.
     """
 
     def __init__(self, link: Link) -> None:
@@ -87,7 +90,7 @@ class Section:
 
     @property
     def folder(self) -> str:
-        """Title in a form that can be the name of a folder."""
+        """Title as a valid name of a folder."""
         return "-".join(re.findall(r"\w+", self.title))
 
 
@@ -96,7 +99,7 @@ class Wire:
     """Jumper wire that the sections about switches require.
 
     Attributes:
-        output, input: ports of the carrier with bit numbers.
+        output, input: ports of the carrier, with the number of the bit if the port has several.
         what: purpose of the wire.
     """
 
@@ -109,7 +112,7 @@ class Wire:
 
 
 def timed(identity: Identity) -> dict[str, Any]:
-    """Return clock, crystal and TIMING for the golden model, as the board reports them."""
+    """Return clk_hz, xtal_hz and timing of the golden model, with the values that the board reports."""
     timing = "DATASHEET" if identity.datasheet else "FAST"
     return {"CLK_HZ": identity.clk_hz, "XTAL_HZ": identity.xtal_hz, "TIMING": timing}
 
@@ -119,7 +122,7 @@ def recorded(
 ) -> tuple[tuple[str, int], ...]:
     """Return the pins in a record and their widths, lowest bit first.
 
-    They are the inputs and outputs of a golden model.
+    The pins are the inputs and outputs of the golden model.
     """
     return tuple((pin, widths.get(pin, 1)) for pin in (*inputs, *outputs))
 
@@ -128,7 +131,7 @@ class Plan(Protocol):
     """Members of the `selftest` module of a part."""
 
     part: str
-    """Name of the part in the table, and of its golden model."""
+    """Name of the part in the table of parts. Its golden model has the same name."""
     jumpers: Sequence[Wire]
     """Wires that the sections about switches need."""
 
@@ -136,10 +139,9 @@ class Plan(Protocol):
         """Return the pins in a record of `width` levels, and their widths, lowest bit first."""
 
     def params(self, identity: Identity, width: int, reset: Mapping[str, int]) -> list[dict[str, Any]]:
-        """Return parameters of the golden model that match the levels of the outputs in reset.
+        """Return the sets of parameters of the golden model that match the levels of the outputs in reset.
 
-        If several sets of parameters match, all of them are returned. The comparison then determines the
-        correct one.
+        If there are several such sets, the comparison determines the correct one.
         """
 
     def sections(self, identity: Identity, width: int, records: int) -> list[Section]:

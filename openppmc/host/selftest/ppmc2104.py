@@ -1,4 +1,4 @@
-"""Self-test of a board with a PPMC-2104: each axis, then a start of both axes with one edge of RUN."""
+"""Self-test of a board with a PPMC-2104: each axis alone, then both axes, started by one edge of RUN."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .bytes import AXIS_2, CCW, CONSTANT, CONTINUOUS, DATA, ORIGIN, RAMP, ByteBu
 from .plan import MOVES, REGISTERS, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 BOTH_HIGH, FIRST_LOW, SECOND_LOW = 0xC1, 0xD1, 0xE1
-"""Codes of the auxiliary outputs."""
+"""Codes that set the auxiliary outputs: both high, or one of them low."""
 RUN_LOW, SLOW_CLOCK = 0xF3, 0xFC
 LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
 BUILDING = sum(CMND)

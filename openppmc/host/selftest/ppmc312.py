@@ -21,7 +21,7 @@ LAYOUT = (
     *(("aclr_n", 1), ("zclmp_n", 1), ("cd_n", 1), ("pout", 1), ("dir", 1), ("intlk_n", 1), ("out_oe", 1)),
 )
 SETTING = blocks.free_curve(3, [200, 300, 400], [6, 5, 4])
-"""Free curve from 2500 to 5000 pps in 15 pulses; a linear ramp would require several hundred pulses."""
+"""Free curve from 2500 to 5000 pps in 15 pulses. A linear table would require several hundred pulses."""
 LINEAR = [blocks.initial_setting(0, 2000, 800, 1000)]
 PULSES = 40
 END_S = 3.0
@@ -40,14 +40,14 @@ def execute(access: PartAccess, instruction: bytes, seconds: float = 0.05) -> No
 
 
 def read_responses(access: PartAccess, seconds: float) -> None:
-    """Wait for a response; read this response and all later responses."""
+    """Wait for a response; read it and all responses that follow within the given time."""
     access.until_interrupt(seconds)
     for _ in range(MOST_RESPONSES):
         access.read(CSR)
         left = EMPTY - access.read(ADDRESS)[0]
         if not 0 < left <= WINDOW:
             return
-        access.link.forget_events()  # discard the event of this response; the next response has another one
+        access.link.forget_events()  # discard this event; the next response causes another one
         access.read(READ, left)
         access.pause(0.001)
 
@@ -63,7 +63,7 @@ def prepare(access: PartAccess, setting: Sequence[bytes] = SETTING) -> None:
 def play_motions(
     *instructions: bytes, stop: bytes = b"", after: float = 0.02, setting: Sequence[bytes] = SETTING
 ) -> Callable[[PartAccess], None]:
-    """Return a function that plays each of these motions to its end.
+    """Return a function that starts a motion with each instruction and waits for its end.
 
     Args:
         stop: instruction that stops each motion.
@@ -83,7 +83,7 @@ def play_motions(
 
 
 def registers(access: PartAccess) -> None:
-    """Read every register of the bus, before and after an instruction."""
+    """Read every register of the bus before and after an instruction."""
     for _ in range(2):
         for register in range(8):
             access.read(register)
@@ -124,7 +124,7 @@ def settings(access: PartAccess) -> None:
 
 
 def codes(first: int) -> Callable[[PartAccess], None]:
-    """Return a function that writes codes without parameters; most of them are rejected."""
+    """Return a function that writes a range of codes without parameters; the part rejects most of them."""
 
     def play(access: PartAccess) -> None:
         prepare(access)

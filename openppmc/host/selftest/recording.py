@@ -20,7 +20,7 @@ class Recorded:
 
     Attributes:
         record_bytes: number of bytes of one record.
-        time_bits: number of bits of a record that count cycles.
+        time_bits: number of bits of the cycle counter in a record.
         most: number of records that fit into the recorder.
         running: True if the recorder is recording.
         full: True if a record was dropped because the recorder was full.
@@ -36,7 +36,7 @@ class Recorded:
 
     @property
     def width(self) -> int:
-        """Number of levels in a record."""
+        """Number of pin levels in a record."""
         return 8 * self.record_bytes - self.time_bits
 
     @classmethod
@@ -48,7 +48,7 @@ class Recorded:
         return cls(data[0], data[1], 1 << data[2], bool(data[3] & 1), bool(data[3] & 2), count)
 
     def samples(self, data: bytes) -> Iterator[tuple[int, int]]:
-        """Yield (cycles since the first record, levels) for each complete record in these bytes."""
+        """Yield (cycles since the first record, levels) for each complete record in `data`."""
         now = 0
         for start in range(0, len(data) - self.record_bytes + 1, self.record_bytes):
             word = int.from_bytes(data[start : start + self.record_bytes], "little")
@@ -66,7 +66,7 @@ class NoReset(ValueError):  # noqa: N818 - names the missing object
 
 
 def pins_of(layout: Layout, levels: int) -> dict[str, int]:
-    """Return the level of each pin in a record."""
+    """Return the level of each pin from the levels of a record."""
     found = {}
     for pin, width in layout:
         found[pin] = levels & (1 << width) - 1
@@ -85,7 +85,8 @@ def reset_levels(samples: Sequence[tuple[int, int]], layout: Layout) -> dict[str
 def _in_reset(samples: Sequence[tuple[int, int]], layout: Layout) -> Iterator[tuple[int, dict[str, int]]]:
     """Yield (cycles since rst_n fell, levels of the pins) during the first reset.
 
-    The generator yields each record, and also the levels one cycle before the next record.
+    For each record, the generator yields the levels at the record, and again one cycle before the next
+    record.
     """
     fell, pins = None, dict[str, int]()
     for t, levels in samples:
@@ -107,10 +108,10 @@ def recording_of(
     inputs: Mapping[str, int],
     outputs: Mapping[str, int],
 ) -> Recording:
-    """Return the recording of the part from its reset on.
+    """Return the recording of the part, beginning with its reset.
 
-    If an output does not have its reset level in reset, the recording contains an edge, which the comparison
-    reports as a difference.
+    If an output does not have its reset level in reset, the recording contains an additional edge of this
+    output, which the comparison reports as a difference.
 
     Args:
         samples: (cycle, levels) of all records.
@@ -126,7 +127,7 @@ def recording_of(
     watched = [name for name, _ in layout]
     now = {**inputs, "rst_n": 0}
     out = {name: level for name, level in outputs.items() if name in watched}
-    # The state before the recorded reset is irrelevant, because the model is in reset until the reset ends.
+    # Earlier states of the part are irrelevant: the model is in reset until the recorded reset ends.
     stimulus = [Change(0, "rst_n", 0)]
     edges: list[Edge] = []
     for t, levels in _from(samples, fell):
@@ -144,7 +145,8 @@ def recording_of(
 def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, int]]:
     """Yield the records from the reset on.
 
-    At the time at which the outputs must have their reset levels, the levels are yielded as well.
+    The generator also yields the levels at the time `SETTLE` after the start of the reset, when the outputs
+    must have their reset levels.
     """
     looked = False
     before = samples[0][1]
@@ -159,7 +161,7 @@ def _from(samples: Sequence[tuple[int, int]], fell: int) -> Iterator[tuple[int, 
 
 
 def _accesses(stimulus: Iterable[Change], edges: Iterable[Edge], pins: Mapping[str, int]) -> Iterator[Access]:
-    """Yield writes and reads of the host, for reports.
+    """Yield the host's writes and reads, which reports of differences contain.
 
     The time of a write is the end of its write strobe, the time of a read the end of its read strobe.
     """

@@ -23,7 +23,7 @@ ECHOES, ECHO_BYTES = 8, 48
 TRIES = 3
 """Number of attempts per section.
 
-While the PC is busy, a chopper or a clock may fill the recorder.
+If the PC is slow because it is busy, the edges of a chopper or clock may fill the recorder.
 """
 PrintLine = Callable[[str], None]
 
@@ -37,11 +37,11 @@ class SectionResult:
     """Result of one section.
 
     Attributes:
-        edges: number of output edges that were compared.
+        edges: number of edges of outputs that were compared.
         wrong: difference in one line, "" if there is none.
         report: the difference as a text of several lines.
         skipped: reason why the section has no result, "" if it has a result.
-        full: True if not all records fitted into the recorder.
+        full: True if the recorder was full, so that records are missing.
     """
 
     section: Section
@@ -60,8 +60,8 @@ class SelfTestResult:
     """Results of a self-test.
 
     Attributes:
-        rates: number of repeated requests for each line rate; `None` if the adapter does not support the
-            rate.
+        rates: number of repeated requests at each line rate; `None` for a rate that the adapter does not
+            support.
     """
 
     build: Build | None
@@ -85,7 +85,7 @@ class SelfTest:
     """Run of a self-test.
 
     Args:
-        folder: folder of the pictures of differences.
+        folder: folder to which pictures of differences are written.
         tell: called with one line of text for each step of the self-test.
     """
 
@@ -97,7 +97,7 @@ class SelfTest:
     # ------------------------------------------------------------------ link
 
     def rates(self) -> None:
-        """Test every line rate that bridge and adapter support with long answers."""
+        """Test every line rate that bridge and adapter support, with long answers."""
         work = self.link.baud
         for code, baud in enumerate(RATES[: self.link.identity.best_rate + 1]):
             before = self.link.repeats
@@ -158,7 +158,7 @@ class SelfTest:
     def play(self, section: Section) -> SectionResult:
         """Record a section and compare it; reset the part afterwards, so that its outputs are off.
 
-        If the recorder was full, the section is played again, because a busy PC may be the cause.
+        If the recorder was full, the section is played again, because the cause may be a busy PC.
         """
         for left in reversed(range(TRIES)):
             outcome = self._record(section)
@@ -182,7 +182,7 @@ class SelfTest:
         return self._check_records(section, *self.fetch())
 
     def safe(self) -> None:
-        """End the recording, then reset the part: pulses end, phases are off.
+        """End the recording, then reset the part, which ends the pulses and switches the phases off.
 
         The call never raises an exception.
         """
@@ -204,8 +204,7 @@ class SelfTest:
         count, pulses = comparison.edges_compared, comparison.pulses
         if comparison.mismatch is not None:
             return SectionResult(section, records, end, count, pulses, *self._difference(section, comparison))
-        # Without the wire, a motion does not end, and the recorder may be full. Therefore, check the wire
-        # first.
+        # First check the wire: without it, a motion does not end, and its records may fill the recorder.
         if section.what == SWITCHES and not self._has_switched(comparison.recording):
             skipped = "no switch has moved: is the wire there?"
             return SectionResult(section, records, end, count, pulses, skipped=skipped)
@@ -218,7 +217,7 @@ class SelfTest:
         return SectionResult(section, records, end, count, pulses, skipped=skipped)
 
     def _compare(self, samples: list[tuple[int, int]]) -> Comparison:
-        """Compare with each set of parameters until one matches, and keep this set."""
+        """Compare the records with a model for each set of parameters. Keep the first set that matches."""
         if not self._params:
             reset = reset_levels(samples, self._layout)
             width = sum(bits for _, bits in self._layout)

@@ -17,7 +17,7 @@ from .bytes import CCW, CONSTANT, CONTINUOUS, LONGEST_MOVE_S, ORIGIN, RAMP, Byte
 from .plan import MOVES, SWITCHES, PartAccess, Section, Wire, recorded, timed
 
 INSIDE = 0xFE
-"""Strap levels that stop the step clock of the board, because its edges would fill the recorder."""
+"""Strap levels that stop the step clock of the board. Its edges would fill the recorder."""
 OUTSIDE = 0xFF
 EXTERNAL = 0x1A
 LAYOUT = recorded(INPUTS, OUTPUTS, WIDTHS)
@@ -42,7 +42,7 @@ class PlanStmc:
         found = [BUS.registers(), *BUS.codes(identity, records), *BUS.moves(pulse_only=False)]
 
         def by_board(access: PartAccess) -> None:
-            # Each cycle of the step clock is two records, so the clock runs only during the motion.
+            # Each cycle of the step clock causes two records, so the clock runs only during the motion.
             BUS.initialise(access, EXTERNAL)
             BUS.command(access, CONSTANT, 20, 3, 0, 0)
             access.run(Script().straps(OUTSIDE))

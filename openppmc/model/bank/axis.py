@@ -25,7 +25,7 @@ CONFIG_RESET = 0b11
 class AxisScheduler(Scheduler):
     """Event queue of the part for the blocks of one axis.
 
-    Each event adds the axis to `changed_axes` when it runs.
+    Each event that runs adds the axis to `changed_axes`.
     """
 
     def __init__(self, queue: Scheduler, changed_axes: set[int], axis: int) -> None:
@@ -44,12 +44,12 @@ class AxisScheduler(Scheduler):
 
 @dataclass
 class AxisContext(Context):
-    """Context of one axis. The interrupt of the axis is a bit of the interrupt map."""
+    """Context of one axis. The interrupt of each axis is a bit of the interrupt map."""
 
     interrupt: bool = False
 
     def drive(self, t: int, signal: str, value: int) -> None:
-        """Store the level of the interrupt. The blocks drive no other host-side output than `int_n`."""
+        """Store the level of the interrupt; `int_n` is the only host-side output that the blocks drive."""
         assert signal == "int_n"
         self.interrupt = not value
 

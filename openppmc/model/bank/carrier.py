@@ -11,7 +11,7 @@ from .part import PpmcBank
 SELECT = 0x3
 WINDOW_AXES = 64
 ADDRESS_AHEAD = 2
-"""Number of cycles from a valid address to the start of the strobe (BANK-WIN-04)."""
+"""Number of cycles from the change of the address to the start of the strobe (BANK-WIN-04)."""
 _PINS = dict(zip(SWITCHES, ("l1_n", "l2_n", "l3_n", "l4_n", "cnp_n", "alm_n"), strict=True))
 
 
@@ -19,8 +19,8 @@ class Carrier(carrier.Carrier[PpmcBank]):
     """Carrier with the connections of ppmc_bank_carrier; each axis has a plant.
 
     Register 3 of the bridge holds the number of the selected axis (from 0; read and write). All other
-    registers are those of the selected axis. PINS returns int_n, and HOLD and the switches of the selected
-    axis. The carrier has no straps, and no pulse counters, because the bank itself counts pulses.
+    registers belong to the selected axis. PINS returns int_n, and the pin HOLD and the switches of the
+    selected axis. The carrier has no straps, and no pulse counters, because the bank itself counts pulses.
     """
 
     ADDRESS_BITS = 10
@@ -63,7 +63,7 @@ class Carrier(carrier.Carrier[PpmcBank]):
             super().write(self._address(a), byte)
 
     def _address(self, a: int) -> int:
-        """Drive the address of a register of the selected axis before the strobe, and return it."""
+        """Drive the address of register `a` of the selected axis before the strobe; return this address."""
         address = self._selected << 4 | a
         self.set_pins(a=address)
         self.t += ADDRESS_AHEAD - 1

@@ -1,4 +1,4 @@
-"""Chopper of an axis of the bank. A visit of the axis schedules each edge (BANK-CHP-01).
+"""Chopper of an axis of the bank. Each edge of the chopper is scheduled by a visit (BANK-CHP-01).
 
 The bank processes its axes in turn. A visit is an edge of `clk` at which it processes this axis.
 """
@@ -46,8 +46,8 @@ def round_clk(axes: int) -> int:
 class VisitSchedule:
     """Visits of an axis.
 
-    They are the edges axis + 8 + n R after `released`, for n = 1, 2 and so on. R is the length of a round,
-    see `round_clk`.
+    They are the edges `released` + axis + 8 + n R, for n = 1, 2 and so on. R is the length of a round, see
+    `round_clk`.
     """
 
     def __init__(self, axis: int, axes: int, released: int) -> None:
@@ -59,7 +59,7 @@ class VisitSchedule:
         return self._start + max(0, -(-(edge - self._start) // self.round)) * self.round
 
     def last(self, edge: int) -> int:
-        """Return the last visit at or before an edge, which schedules the events of the edge."""
+        """Return the last visit at or before an edge. This visit schedules the events of the edge."""
         return self._start + (edge - self._start) // self.round * self.round
 
 
@@ -99,7 +99,7 @@ class Chopper(excitation.Chopper):
     def _latch_length(self, t: int) -> None:
         """Latch the length of the next on-time or off-time (BANK-GEN-04).
 
-        The length depends on vsel and the parameters at this visit.
+        The length depends on vsel and on the chopper times, with their values at this visit.
         """
         self._latched_length = self._times.quanta(not self.on)
 

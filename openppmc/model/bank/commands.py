@@ -1,8 +1,8 @@
 """Commands of an axis of the bank, and the builder of ramp tables, which all axes share.
 
-The commands are those of the PPMC-104 without auxiliary pins and external clock (BANK-GEN-03). Rules of the
-builder: BANK-HSK-05, BANK-INI-01, -02. The bank processes its axes in turn; a visit is an edge of `clk` at
-which it processes an axis.
+The commands are those of the PPMC-104, except for commands and options that concern auxiliary pins or the
+external clock (BANK-GEN-03). Rules of the builder: BANK-HSK-05, BANK-INI-01, -02. The bank processes its axes
+in turn; a visit is an edge of `clk` at which it processes an axis.
 """
 
 from __future__ import annotations
@@ -62,7 +62,8 @@ class Mailbox:
     def store(self, t: int, byte: int, command: bool) -> None:
         """Process a write event at edge t.
 
-        A visit at which this write is not effective yet may still accept the byte that the write replaces.
+        The write replaces a byte that still waits. However, a visit at which the write is not effective yet
+        may accept the old byte.
         """
         self._written.append((t, byte, command))
         if self._planned is None or self._visits.first(t + BYTE_LEAD) < self._next:
@@ -73,7 +74,7 @@ class Mailbox:
         self._closed_until = t
 
     def retry(self, t: int) -> None:
-        """Check the waiting byte again at the next visit, because the axis may now accept it."""
+        """Check the waiting byte again at the next visit; a condition for its acceptance has changed."""
         if self._planned:
             self._plan(t + 1)
 
@@ -96,7 +97,7 @@ class Mailbox:
                 del self._written[0]
                 self._take(t, byte, command)
             else:
-                # Another byte may replace the waiting byte and be accepted earlier.
+                # The waiting byte may be replaced by another byte, which may be accepted earlier.
                 later = min([retry_at, *(written + BYTE_LEAD for written, _, _ in self._written[1:])])
         if self._written:
             self._plan(later)
@@ -181,7 +182,7 @@ class CommandUnit(ppmc104.CommandUnit):
         return self._before if t == self.completed else self.initialised
 
     def reject(self, error: Error) -> None:
-        """Store the error of a GO that was written while no motion was waiting (BANK-GRP-02)."""
+        """Store `error` because a GO was written while no motion of this axis was waiting (BANK-GRP-02)."""
         self._pending, self._data = None, []
         self.error = error
 
@@ -192,7 +193,7 @@ class CommandUnit(ppmc104.CommandUnit):
     def builder_free_from(self, command: bool) -> int:
         """Return the first edge at which the builder permits the next byte.
 
-        The result is 0 if this byte does not start a build.
+        The result is 0 if the next byte of `command` does not start a build.
         """
         last = self._pending is not None and self._pending.kind is Kind.INITIALISE and self.expected == 1
         return self._builder.free_from if last and not command else 0

@@ -56,7 +56,7 @@ class Group:
     """Group registers of a bank.
 
     Attributes:
-        mask: MASK as a read returns it; bit i = axis i.
+        mask: value that a read of MASK returns; bit i = axis i.
     """
 
     def __init__(self, queue: Scheduler, axes: int, round_clk: int) -> None:
@@ -78,14 +78,14 @@ class Group:
         self._visible_mask = mask
 
     def includes(self, axis: int) -> bool:
-        """Return the MASK bit of an axis that is effective at its current visit."""
+        """Return the value of an axis's MASK bit that is effective at the current visit of the axis."""
         return bool(self._visible_mask >> axis & 1)
 
     def go(self, t: int) -> None:
         """Process a write event of GO at edge t.
 
         This GO is effective from edge t on. If an earlier GO is still active, this GO is effective after the
-        end of the earlier GO (BANK-GRP-03).
+        end of the earlier GO. If another GO already waits for this end, this GO has no effect (BANK-GRP-03).
         """
         if self._go > t:
             return
@@ -105,5 +105,5 @@ class Group:
             self._queue.at(t + 1, Phase.COMMAND, member.halt)
 
     def stops(self, visit: int) -> bool:
-        """Return True if an earlier STOP ends an operation that starts at this visit."""
+        """Return True if a STOP that was written earlier ends an operation that starts at this visit."""
         return 0 <= self._stopped < visit <= self._stopped + self._round

@@ -30,7 +30,7 @@ class Motion(ppmc104.Motion):
             visit.
 
     Attributes:
-        waits_for_go: True if the motion is waiting for GO (BANK-GRP-01).
+        waits_for_go: True if the operation has been accepted and is waiting for GO (BANK-GRP-01).
         ended: visit that ended the last motion; -1 before the first.
     """
 
@@ -71,13 +71,13 @@ class Motion(ppmc104.Motion):
 
     @property
     def in_group(self) -> bool:
-        """MASK bit that is effective at the current visit."""
+        """True if the MASK bit of this axis is set, with its value that is effective at the current visit."""
         return self._group.includes(self._axis)
 
     def release(self, go: int) -> None:
         """Start the pulses of a waiting operation.
 
-        Pulse 1 is output after the GO is effective in all axes (BANK-GRP-02).
+        Pulse 1 is output only after the GO has become effective in all axes (BANK-GRP-02).
         """
         self.waits_for_go = False
         self._arm(go + GROUP_LEAD - 1 + self._visits.round + self._context.timebase.w)
@@ -103,7 +103,7 @@ class Motion(ppmc104.Motion):
         super().stop(t)
 
     def check_stops(self, t: int) -> None:
-        """Check the stop causes; the first decision is final (BANK-MOT-02)."""
+        """Check the stop causes at edge t. The first decision to end the motion is final (BANK-MOT-02)."""
         if self._cut is None:
             super().check_stops(t)
 
@@ -111,7 +111,7 @@ class Motion(ppmc104.Motion):
         return inspect(GUARD, self._switches, self.operation, self.direction)._replace(slow=False)
 
     def schedule_slow_check(self, edge: int) -> None:
-        """Schedule the check of an active slow-down limit at the first visit from an edge on."""
+        """Schedule the check of an active slow-down limit at the first visit at or after `edge`."""
         if self.busy and self.is_ramp and self._slow_active():
             self._context.queue.at(self._visits.first(edge), Phase.GUARD, self._check_slow_limit)
 
@@ -198,7 +198,7 @@ class Motion(ppmc104.Motion):
         super()._plan_hold(self._visits.first(edge))
 
     def _set_hold(self, t: int) -> None:
-        """Set HOLD at a visit that schedules no edge of the chopper (BANK-HLD-01)."""
+        """Set HOLD at the first visit that schedules no edge of the chopper (BANK-HLD-01)."""
         if self._schedules_edge(t):
             self._plan_hold(t + 1)
         else:

@@ -1,12 +1,12 @@
-"""Golden model of the bank at pin level: N axes of a PPMC-104, which are processed at visits.
+"""Golden model of the bank at pin level: N axes, each of which behaves like a PPMC-104.
 
 The bank processes its axes in turn; a visit of an axis is an edge of `clk` at which it processes this axis.
 The model is event driven and cycle-accurate.
 
-`chip` and `clock` define pins and time. Rules by module: this module BANK-GEN-01, -02, -05; `window`
-BANK-WIN; `chopper` the times of the visits and BANK-CHP; `axis` (one object per axis) BANK-GEN-04; `commands`
-BANK-HSK, BANK-GEN-03 and BANK-INI; `motion` BANK-MOT and BANK-HLD; `group` BANK-GRP. All other behaviour is
-that of the PPMC-104.
+`chip` and `clock` define pins and time. Rules by module: BANK-GEN-01, -02 and -05 are in this module;
+BANK-WIN is in `window`, BANK-CHP in `chopper` (which also calculates the times of the visits), BANK-GEN-04 in
+`axis` (one object per axis), BANK-HSK, BANK-GEN-03 and BANK-INI in `commands`, BANK-MOT and BANK-HLD in
+`motion`, BANK-GRP in `group`. In all other respects, an axis behaves like a PPMC-104.
 """
 
 from __future__ import annotations
@@ -37,7 +37,8 @@ class PpmcBank(Chip):
         phase_idle: 0 or 1.
 
     Raises:
-        ValueError: an argument has another value, or BANK-GEN-02 forbids this pair of clocks.
+        ValueError: an argument has another value, or BANK-GEN-02 forbids this combination of clk_hz and
+            xtal_hz.
     """
 
     HOST_PINS = HOST_PINS
@@ -95,7 +96,7 @@ class PpmcBank(Chip):
     # ------------------------------------------------------------------ methods that `chip` calls
 
     def _latch(self, t: int) -> None:
-        """Update the ports from the axes in which an event occurred."""
+        """Update the ports of all axes in which an event occurred."""
         if not self._changed_axes:
             return
         pout_n, directions, hold, phases = self._motors.values()
@@ -180,7 +181,7 @@ class PpmcBank(Chip):
         return self._axes[axis].motion.position(self.now)
 
     def initialised(self, axis: int) -> bool:
-        """Return True if an initialisation of an axis is active, even while its table is being built."""
+        """Return True if an initialisation of an axis is active, also while its ramp table is being built."""
         return self._axes[axis].commands.setup is not None
 
     def intervals(self, axis: int) -> list[Interval]:
@@ -188,5 +189,8 @@ class PpmcBank(Chip):
         return self._axes[axis].motion.intervals
 
     def index(self, axis: int) -> int | None:
-        """Return the ramp index of the running interval; `None` at standstill or at constant speed."""
+        """Return the ramp index of an axis's running interval.
+
+        The result is `None` at standstill or at constant speed.
+        """
         return self._axes[axis].motion.index

@@ -1,8 +1,8 @@
 """Golden model of `ppmc_uart_bridge` at the level of line bytes (docs/uart_bridge.md).
 
 Bit times are not modelled (UB-LIN-03, -04, UB-BUS-01). The caller reports events that depend on time:
-`receive_bad` for a byte with a framing error, `idle` for an idle line. If bytes follow a request in the same
-call of `receive`, the model assumes that they arrive while its script runs (UB-FRM-07).
+`receive_bad` for a byte with a framing error, `idle` for an idle line. If more bytes follow a request in the
+same call of `receive`, the model assumes that they arrive while the script of the request runs (UB-FRM-07).
 """
 
 from __future__ import annotations
@@ -64,15 +64,15 @@ class Receiver:
 
     @property
     def inside(self) -> bool:
-        """True if an incomplete frame has been received. If the line becomes idle, this frame is invalid.
+        """True if a frame has begun but is not complete. If the line becomes idle, this frame is invalid.
 
-        A single 7D is also an incomplete frame.
+        A single byte 7D also begins a frame.
         """
         return not self._hunting and (self._escaped or bool(self._content))
 
     @property
     def hunting(self) -> bool:
-        """True until the first flag has been received."""
+        """True while the receiver ignores all bytes up to the next flag."""
         return self._hunting
 
     def drop(self, nak: int) -> int | None:
@@ -124,10 +124,10 @@ class Bridge:
     """One bridge with its part.
 
     Args:
-        bus: see `bridge_ops.Bus`.
+        bus: part; see `bridge_ops.Bus`.
         part: part number in the answer to IDENT.
         clk_hz: 1..2^32-1; it determines the available line rates.
-        xtal_hz, datasheet, counter: values that only the answer to IDENT contains.
+        xtal_hz, datasheet, counter: values for the answer to IDENT; they have no other effect.
         axes: number of pulse counters, 1 or 2.
         build: answer to VERSION, 16 bytes.
         recorder: True if the bus has a recorder.
@@ -210,7 +210,7 @@ class Bridge:
         """Execute a request, or repeat its answer.
 
         Args:
-            more_bytes: True if more bytes arrive before the answer is sent (UB-FRM-07).
+            more_bytes: True if further bytes arrive before the answer is sent (UB-FRM-07).
         """
         code = None
         if request.seq and self._stored and self._stored[0] == request.seq:

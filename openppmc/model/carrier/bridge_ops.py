@@ -29,10 +29,10 @@ RECORD_END, RECORD_BEGIN, RECORD_REWIND = 0, 1, 2
 
 
 class Bus(Protocol):
-    """Part accessed through the bridge. `read` and `write` are one bus access each.
+    """Part that the bridge accesses. `read` and `write` are one bus access each.
 
-    A bus may also have these methods. The second column is what happens, or the value that the bridge uses,
-    if the bus does not have the method:
+    A bus may also have these methods. If it does not have a method, the second column states what happens
+    instead, or the value that the bridge uses:
 
         reset()             nothing happens
         straps(byte)        nothing happens
@@ -58,7 +58,7 @@ class Bus(Protocol):
 
 
 class Stop(Exception):  # noqa: N818 - not an error of the program: the script ends here
-    """Ends the execution of a script with this RESULT."""
+    """Exception that ends the execution of a script; its argument is the RESULT of the answer."""
 
     def __init__(self, result: int) -> None:
         super().__init__(result)
@@ -69,7 +69,8 @@ class Engine:
     """Interpreter of scripts.
 
     Args:
-        set_events: called by the operation EVENTS; the owner of the engine handles pending events.
+        set_events: called by the operation EVENTS with True (enable) or False; it must handle a pending
+        event.
         build: answer to VERSION.
         recorder: True if the bus has a recorder.
 
@@ -109,12 +110,12 @@ class Engine:
         self.rate: int | None = None
 
     def hook(self, name: str, default: T, *arguments: object) -> T:
-        """Call an optional method of the bus."""
+        """Call an optional method of the bus; return `default` if the bus does not have it."""
         method: Callable[..., T] | None = getattr(self._bus, name, None)
         return default if method is None else method(*arguments)
 
     def run(self, script: bytes, interrupted: Callable[[], bool]) -> tuple[int, int, int, bytes]:
-        """Execute a script; return the fields RESULT, POS and LAST of its answer, and the data."""
+        """Execute a script; return the fields RESULT, POS and LAST of its answer, followed by the data."""
         self._data = bytearray()
         self._last = 0
         self._reads = 0
@@ -253,7 +254,7 @@ class Engine:
         self._data.append(make())
 
     def _append_all(self, values: bytes) -> None:
-        """Append all bytes of an operation. If not all of them fit, append no byte."""
+        """Append all bytes of an operation to the answer, or none of them if they do not all fit."""
         if len(self._data) + len(values) > MAX_DATA:
             raise Stop(4)
         self._data += values

@@ -19,10 +19,9 @@ FARTHEST = 1 << 31
 SWITCHES = ("limit_cw", "limit_ccw", "slow_cw", "slow_ccw", "origin", "alarm")
 """Switches in the order of the bridge's PINS byte."""
 INDEX_AT = -20
-"""A position of the encoder's index.
+"""Position of one index of the encoder, in pulses.
 
-The position is within the range in which the cam activates the origin switch, but not at an edge of this
-range.
+At this position the cam activates the origin switch, and the position is not at an edge of the cam.
 """
 
 
@@ -36,10 +35,10 @@ class Plant:
         slow_cw, slow_ccw: slow-down limits, active at positions >= slow_cw and <= slow_ccw.
         origin: the origin switch is active at positions <= origin; with a cam, only at positions from
             origin_from to origin.
-        alarm: the alarm is active from the first to the second of these positions.
-        index: period of the encoder's index in pulses, with an index at position -20; 0: no index.
-        block: position that the shaft cannot pass in direction CW, `None` if there is none. At this position
-            the encoder stops while pulses continue.
+        alarm: first and last position at which the alarm is active.
+        index: distance of the encoder's indexes in pulses, with an index at position -20; 0: no index.
+        block: position that the shaft cannot pass in direction CW, `None` if there is none. At this position,
+            the shaft and its encoder stop, but the pulses continue.
     """
 
     start: int = 4000
@@ -54,7 +53,7 @@ class Plant:
     block: int | None = None
 
     def steps(self, position: int, ccw: int) -> bool:
-        """Return True if the shaft follows a pulse at this position."""
+        """Return True if the shaft follows a pulse that is output at this position."""
         return bool(ccw) or self.block is None or position < self.block
 
     def index_level(self, position: int) -> int:
@@ -101,7 +100,7 @@ class Carrier(ABC, Generic[P_co]):
         t: first edge of `clk` that was not simulated yet.
         positions: positions of the motors.
         counts: values of the pulse counters.
-        on_interrupt: called at a falling edge of the pin INTERRUPT.
+        on_interrupt: called at a falling edge of the pin whose name is INTERRUPT.
         ADDRESS_BITS: number of connected address lines of the bridge.
     """
 
@@ -148,7 +147,7 @@ class Carrier(ABC, Generic[P_co]):
 
     @abstractmethod
     def watched_register(self) -> object:
-        """Return the current content of the register that a wait polls."""
+        """Return the current content of the register that a host polls during a wait."""
 
     def _levels(self) -> list[dict[str, int]]:
         return [plant.levels(at) for plant, at in zip(self.plants, self.positions, strict=True)]
@@ -176,8 +175,8 @@ class Carrier(ABC, Generic[P_co]):
         if not log.edges:
             return
         edges = log.edges[:]
-        # Restart the log with the current levels first; otherwise a change of two axes at the same edge would
-        # be lost.
+        # Restart the log with the current levels before the switches are set; otherwise a change of two axes
+        # at the same edge would be lost.
         log.edges.clear()
         log.initial.update(log.levels)
         before = self.positions[:]
@@ -265,7 +264,7 @@ class Carrier(ABC, Generic[P_co]):
         return self.t * 1000 / self.clk_hz
 
     def skip(self, limit_ms: float) -> None:
-        """Simulate up to the next event that changes the polled register, but at most for this time."""
+        """Simulate up to the next event that changes the polled register, but at most for `limit_ms`."""
         before = self._polled_value  # before the last read, during which the register may have changed
         limit = self.t + max(1, round(limit_ms * self.clk_hz / 1000))
         if self.watched_register() == before:

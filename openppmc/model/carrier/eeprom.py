@@ -2,9 +2,9 @@
 
 The EEPROM has 4096 bytes, pages of 32 bytes, a write time and acknowledge polling.
 
-The device samples both lines at edges of `clk`. A line that it pulls low or releases changes at the same
-edge. The user calls `on_lines` at every edge at which a level differs from the previous edge, and at edge
-`due`. The state does not change at other edges.
+The device samples both lines at edges of `clk`. If it pulls a line low or releases it, the line changes at
+the same edge. The user calls `on_lines` at every edge at which a level differs from the previous edge, and at
+edge `due`. At other edges, the state does not change.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ BLANK = 0xFF
 
 
 class Written(NamedTuple):
-    """Page write: edge of its STOP, address of its first byte, bytes in the order of reception."""
+    """Page write: edge of its STOP, address of its first byte, and its bytes in order of reception."""
 
     t: int
     address: int
@@ -41,8 +41,8 @@ class Eeprom24C32:
         sda, scl: 1 while the device pulls the line low.
         memory: content.
         writes: all page writes.
-        stuck_sda, stuck_scl: True to hold a line low; a change is effective from the next call of `on_lines`
-            on.
+        stuck_sda, stuck_scl: True while the device holds the line low as a fault. A change is effective from
+            the next call of `on_lines` on.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Eeprom24C32:
         self._page: list[int] = []
 
     def occupy(self, until: int) -> None:
-        """Set the edge that ends a write cycle; the cycle began before this model was created."""
+        """Continue, until the edge `until`, a write cycle that began before this model was created."""
         self._busy_until = until
 
     def busy(self, t: int) -> bool:
@@ -87,7 +87,7 @@ class Eeprom24C32:
         return t < self._busy_until
 
     def on_lines(self, t: int, scl: int, sda: int) -> None:
-        """Process the levels of both lines at edge t; any device may pull a line low."""
+        """Process the levels of both lines at edge t; a level is 0 if any device pulls the line low."""
         if self.due is not None and t >= self.due:
             self.due, self._holds_scl = None, 0
         before, self._lines = self._lines, (scl, sda)
@@ -113,7 +113,7 @@ class Eeprom24C32:
     def _stop(self, t: int) -> None:
         """End the transfer; a write cycle begins if only whole bytes were received.
 
-        The rising edge of SCL before a STOP was counted as a bit.
+        The count of bits includes one bit for the rising edge of SCL before the STOP.
         """
         if self._phase == "data" and self._page and self._bits <= 1:
             first = self._address
@@ -127,7 +127,7 @@ class Eeprom24C32:
     # ------------------------------------------------------------------ bits
 
     def _rise(self, sda: int) -> None:
-        """Process a bit: eight bits of a byte, then the acknowledge of the receiver."""
+        """Process a bit at a rising edge of SCL: a bit of a byte, or the acknowledge of the receiver."""
         if self._phase == "":
             return
         self._bits += 1

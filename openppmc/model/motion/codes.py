@@ -53,7 +53,7 @@ class Command:
 
     Attributes:
         parameters: number of data bytes that follow.
-        operation, pulse_only, masked, direction: fields of an operation code; not used for other codes.
+        operation, pulse_only, masked, direction: fields of an operation code; other codes do not use them.
         axis: number of the axis, counted from 0; 0 on a part with one axis.
     """
 
@@ -106,7 +106,7 @@ class ActiveCauses(NamedTuple):
     """Causes that are active at an edge.
 
     Attributes:
-        bits: end-status bits of the active limits and of the alarm.
+        bits: end-status bits of the limits and of the alarm that are active.
         origin: True if the origin is active; only origin searches use this cause.
         slow: True if a slow-down limit is active.
     """
@@ -137,7 +137,7 @@ def inspect(pins: GuardPins, levels: Mapping[str, int], operation: int, directio
 
 
 def input_register(levels: Mapping[str, int], bits: Mapping[int, str]) -> int:
-    """Return the byte that a read of the control inputs returns.
+    """Return the byte with which a read of the control inputs is answered.
 
     `bits` maps each bit number to its pin.
     """

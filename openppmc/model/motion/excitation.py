@@ -1,6 +1,6 @@
 """Phase excitation: the energised phases at each index, and the chopper.
 
-The patterns are derived from the definition of the drive.
+The patterns are calculated from the definition of the excitation.
 
 P104-PHS-01..06 (docs/ppmc104/README.md, 10.1 Patterns): the phases form a ring of 3, 4 or 5, and neighbours
 are energised. A full step always energises two phases. Half steps alternately energise two phases and one
@@ -31,17 +31,17 @@ def step_list(phases: int, half: bool) -> tuple[int, ...]:
     for first in range(phases):
         steps.append(ring(first, 2))
         if half:
-            # A pattern between two full steps energises the phase that both full steps share (1-2 phase), or
-            # all three phases of both (2-3 phase).
+            # A pattern between two full steps energises the phase that both full steps have in common (1-2
+            # phase), or the three phases that at least one of them energises (2-3 phase).
             steps.append(ring(first, 3) if phases == 5 else ring(first + 1, 1))
     return tuple(steps)
 
 
 def step_directions() -> dict[tuple[int, int], int]:
-    """Return the direction of each step, by the pin levels (before, after): 1 = CW, -1 = CCW.
+    """Return the direction of each step by its phase levels (before, after): 1 = CW, -1 = CCW.
 
-    One table is valid for all motors and both logics. If a pair of successive levels occurs with several
-    motors, it has the same direction with all of them.
+    One table is valid for all motors and both logics. A pair of levels that occurs with several motors has
+    the same direction with all of them.
     """
     found: dict[tuple[int, int], int] = {}
     for phases, half, off in product((3, 4, 5), (False, True), (0, ALL_PHASES)):
@@ -119,7 +119,7 @@ class ChopperTimes(Protocol):
 class Chopper:
     """Chopper: alternates ON and OFF phases while it runs.
 
-    Phases are counted in ticks of the quantum counter.
+    The lengths of these phases are counted in ticks of the quantum counter.
 
     Attributes:
         next_phase_at: edge at which the next phase begins, `None` while the chopper does not run.

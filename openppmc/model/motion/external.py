@@ -12,10 +12,10 @@ class ExternalInterval:
     """Counter of effective edges of the base clock between pulses; times are edges of `clk`.
 
     Args:
-        plain: level of vsel during the operation. If it is 1, the next pulse occurs at base edge number rate
-            + 1 after the last pulse. If it is 0, counting begins with the first base edge at or after the
-            last pulse, and the next pulse is delayed by 7.5 us minus the time from the last pulse to that
-            first edge (P104-INT-03).
+        plain: level of vsel during the operation. If it is 1, the next pulse occurs at the base edge with
+            number rate + 1, counted from the last pulse. If it is 0, counting begins with the first base edge
+            at or after the last pulse, and the next pulse is delayed by 7.5 us minus the time from the last
+            pulse to that first edge (P104-INT-03).
     """
 
     def __init__(self, timebase: Timebase, plain: bool) -> None:
@@ -39,7 +39,7 @@ class ExternalInterval:
     def rise(self, t: int, gap: int | None, low: bool) -> int | None:
         """Process a base edge.
 
-        An edge at which a pulse would occur while pout_n is still low is not counted.
+        An edge that would cause a pulse while pout_n is still low is not counted.
 
         Args:
             gap: number of cycles since the previous base edge, `None` for the first base edge after a reset.

@@ -62,7 +62,7 @@ class Motion:
     """Operation of an axis. The attributes busy, index, done, intervals, finish and remaining are public.
 
     Args:
-        guard: names of the switches in context.levels.
+        guard: pin names of the switches in context.levels.
         on_end: on_end(t, masked) is called when BUSY falls; `masked` is True if the operation masks its
             interrupt.
 
@@ -105,7 +105,7 @@ class Motion:
         Args:
             data: data bytes of the operation: rate, then count.
             csel: level of the pin csel.
-            plain: True if intervals have no extra time (vsel).
+            plain: True if the pin vsel selects intervals without extra time.
         """
         self.operation = command.operation
         self._command = command
@@ -121,7 +121,7 @@ class Motion:
         self._external = ExternalInterval(self._context.timebase, plain) if counts_clock else None
 
     def _begin(self, t: int) -> None:
-        """Process the start edge: BUSY rises, hold is deasserted, and dir is set."""
+        """Process the start edge: BUSY rises, the pin hold is deasserted, and the pin dir is set."""
         self.busy, self.finishing = True, False
         self.hold, self.direction = 0, self._command.direction
         self.done, self.index = 0, None
@@ -197,7 +197,10 @@ class Motion:
         return inspect(self._guard, self._context.levels, self.operation, self.direction)
 
     def _slow_limit_effective(self) -> bool:
-        """Return True if an active slow-down limit sets the forced-deceleration flag."""
+        """Return True if an active slow-down limit must request a forced deceleration.
+
+        This is not the case if it has already requested one, or if the flag is set.
+        """
         return self._flag_edge is None and "slow" not in self._events
 
     def _slow_limit_edge(self, t: int) -> int:
@@ -205,7 +208,7 @@ class Motion:
         return t
 
     def _request(self, at: int, name: str, bit: int) -> None:
-        """Schedule the forced deceleration that cause `name` requests at edge `at`."""
+        """Schedule for edge `at` the forced deceleration that the cause `name` requests."""
         self._events[name] = self._context.queue.at(at, Phase.FLAG, lambda now: self._flag(now, bit))
 
     def _flag(self, t: int, bit: int) -> None:
@@ -238,7 +241,7 @@ class Motion:
         self._end_decided(t)
 
     def _end_decided(self, t: int) -> None:
-        """Schedule the end of a motion that was cut at edge t.
+        """Schedule the end of a motion whose immediate end was decided at edge t.
 
         With FAST timing, the motion ends after the low time of the pulse.
         """
@@ -307,7 +310,7 @@ class Motion:
         self._interval_begun(t)
 
     def _output_pulse(self, t: int, rate: int | None, gap: int | None) -> None:
-        """Set the pins of a pulse: next pattern, pout_n low."""
+        """Set the pins for a pulse: the phases to the next pattern, pout_n to 0."""
         if not self._command.pulse_only:
             self._excitation.step(self.direction)
         self._begin_low(t, rate, gap)

@@ -1,14 +1,14 @@
 """Exact linear ramp: the square of the speed grows linearly with the pulse index.
 
-The parts of the PPMC family use this ramp.
+All parts of the PPMC family use this ramp.
 
 P104-RMP-01: the interval of index k lasts x(k) = 1/sqrt(1/A + (1/B - 1/A) k/PA) base clock periods, rounded
 half up. A and B are the squares of the start and high-speed periods. All values are calculated from the
 closed formula with exact integer square roots. `period` is the number of base clock periods of an interval:
 rate + 1 for parts with rates, the divisor itself for parts with divisors.
 
-P104-PRO-01..06 and P104-FDC-02: index of each interval of a move, interval by interval or by a closed
-formula.
+P104-PRO-01..06 and P104-FDC-02: this module also calculates the index of each interval of a move, interval by
+interval or by a closed formula.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def ramp_period(start: int, high: int, pa: int, k: int) -> int:
     """Return the number of base clock periods of the interval with index k, 0 <= k <= pa.
 
     Args:
-        start, high: results for index 0 and for index pa, 1 <= high <= start.
-        pa: number of ramp pulses; 0 is a flat ramp, start = high.
+        start, high: period of index 0 and period of index pa, 1 <= high <= start.
+        pa: number of ramp pulses; 0 means no ramp, and then start = high.
 
     Raises:
         ValueError: a value is out of range.
@@ -50,7 +50,7 @@ def next_index(kp: int, m: int, pa: int, forced: bool) -> int | None:
     Args:
         kp: index of the interval that has just ended, -1 at pulse 1.
         m: remaining pulses.
-        forced: True if a deceleration is flagged.
+        forced: True if the forced-deceleration flag is set.
     """
     if m == 0:
         return None
@@ -110,7 +110,8 @@ def traverse_ramp(n: int, pa: int, flag: Callable[[int], bool] = lambda j: False
 class Ramp:
     """Initialised ramp: start rate rl, high-speed rate rh, pa ramp pulses.
 
-    Two conditions are checked: 0 <= rh <= rl, and rl = rh if pa = 0. Each part checks further limits.
+    The constructor checks two conditions: 0 <= rh <= rl, and rl = rh if pa = 0. Each part checks further
+    limits.
 
     Raises:
         ValueError: there is no such ramp.
@@ -146,7 +147,7 @@ class BaseClock:
 
     Attributes:
         tclock: period of the base clock in quanta: 8 (500 kHz) or 32 (125 kHz).
-        extra: time in quanta that is added to each interval: 0, or 30 (7.5 us).
+        extra: time that is added to each interval, in quanta: 0, or 30 (7.5 us).
     """
 
     tclock: int = 8

@@ -12,7 +12,7 @@ STEPS = range(1, 0x8000_0000)
 
 
 def may_step(context: ExecutionContext, count: int) -> bool:
-    """Return True if condition C of P006-STA-01 holds."""
+    """Return True if condition C of P006-STA-01 is true for a displacement of `count` steps."""
     return (
         count in STEPS
         and max(context.settings.vstart, context.settings.vstop) <= context.settings.vmax

@@ -58,7 +58,7 @@ class Program(Protocol):
         """Start the program by instruction z or by autostart."""
 
     def quit(self, t: int) -> None:
-        """Execute instruction F 0."""
+        """Execute instruction F with data 0."""
 
     def enable(self, name: str, on: int, target: int) -> None:
         """Execute RESET_EN or PAUSE_EN."""
@@ -121,7 +121,7 @@ class ExecutionContext(Protocol):
 
     @property
     def locked(self) -> bool:
-        """True if a start is blocked by a cause other than BUSY."""
+        """True if a cause other than BUSY prevents a start."""
 
     @property
     def port_word(self) -> int:
@@ -137,7 +137,7 @@ class ExecutionContext(Protocol):
         """Execute instruction s or ROT."""
 
     def run(self, t: int) -> None:
-        """Execute instruction N = 1 at standstill (IDLE)."""
+        """Execute instruction N with data 1 at standstill (IDLE)."""
 
     def speed(self, t: int, on: bool) -> None:
         """Execute instruction N while the speed mode is running or ending."""
@@ -149,15 +149,15 @@ class ExecutionContext(Protocol):
 
 
 class Effect(NamedTuple):
-    """Effect of an executed instruction in its cycle.
+    """Effect of an instruction in the cycle in which it is executed.
 
     Attributes:
         reply: data of the answer, or a function that returns them and is called one cycle later.
-        registers: new register values.
+        registers: registers that change, with their new values.
         halt: True if the motor stops immediately.
         action: function for any other effect, called with the context and the edge.
-        early_action: as `action`, but called before the motion is processed at that edge.
-        excludes_step: True if no step may be counted in that cycle.
+        early_action: as `action`, but called before the motion is processed at this edge.
+        excludes_step: True if the motion may not count a step in this cycle.
         program_index: number of the program instruction that instruction E executes.
     """
 
@@ -183,7 +183,7 @@ class Setting(Instruction):
     """Instruction that writes a register if the data are legal. Its answer is the value of the register.
 
     Attributes:
-        also: further registers that the instruction writes, with the values that it writes.
+        also: further registers that the instruction writes, with their new values.
     """
 
     name: str

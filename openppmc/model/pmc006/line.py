@@ -30,7 +30,7 @@ class Command(NamedTuple):
 
 
 def checked(*parts: int, data: int) -> bytes:
-    """Return byte 0xA5, two bytes, the data and the checksum."""
+    """Return a frame: byte 0xA5, bytes 1 and 2, the data and the checksum."""
     body = bytes((HEAD, *parts)) + (data & 0xFFFF_FFFF).to_bytes(4, "little")
     return body + bytes([sum(body) % 256])
 
@@ -78,13 +78,14 @@ class Assembler:
 
 
 STOP = Fraction(163, 2)
-"""Bit times from the last stop-bit sample of a frame to the middle of the last stop bit of its reply.
+"""Bit times from the last sample of a frame to the middle of the last stop bit of its reply.
 
-From this time on, a host may send."""
+From this time on, a host may send.
+"""
 SYNC = 2
 """Number of cycles from the edge that samples a level to its effect."""
 SILENCE = 192
-"""Bit times without a start bit after which an incomplete frame is dropped."""
+"""Time without a start bit after which an incomplete frame is dropped, in bit times."""
 
 
 def changes_of(frame: bytes) -> list[tuple[int, str, int]]:
@@ -105,8 +106,8 @@ class Line:
     Args:
         take: take(t, command) is called when a frame with a valid checksum is complete. Edge t samples its
             last stop bit. take returns True if the frame is for this controller (P006-FRM-02).
-        replies: list for (edge at which de rises, frame).
-        sent: list for (edge in the middle of a stop bit, byte).
+        replies: list to which (edge at which de rises, frame) of each reply is appended.
+        sent: list to which (edge in the middle of the stop bit, byte) of each byte sent is appended.
     """
 
     def __init__(
@@ -148,7 +149,7 @@ class Line:
             self._services.queue.at(t, Phase.BUS, self._open_up)
 
     def listen(self, t: int, on: bool) -> None:
-        """Enable or close the receiver after edge t. An enabled receiver opens when the line is high."""
+        """Enable or close the receiver after edge t. An enabled receiver opens once the line is high."""
         self._muted = not on
         if not on:
             self._open = False
@@ -158,7 +159,7 @@ class Line:
             self._services.queue.at(t + 1, Phase.BUS, self._open_up)
 
     def _open_up(self, t: int) -> None:
-        """Open the receiver, because the line was high before edge t.
+        """Open the receiver if it is enabled and the line was high before edge t.
 
         The next edge is the first to sample the pin.
         """
@@ -178,7 +179,7 @@ class Line:
         self._services.queue.at(t, Phase.BUS, lambda now: self.on_char(now, byte))
 
     def on_char(self, t: int, byte: int | None) -> None:
-        """Process a character at edge t; `None` is a character whose stop bit was low."""
+        """Process a character at edge t; `byte` is `None` if its stop bit was low."""
         if self._muted:
             return
         if byte is None or t - self._last_char_at >= self._silence:

@@ -22,15 +22,15 @@ from .pins import INPUTS, OUTPUTS, SYNCHRONISED, WIDTHS, CoreTiming, Services, T
 from .settings import Settings
 
 MS, RESTORE_MS = 1000, 20
-"""Number of µs ticks in a millisecond, and time in ms for which FSET must be low for a restore."""
+"""Number of µs ticks in a millisecond, and the time in ms for which FSET must be low to request a restore."""
 _LINES = {"scl_i", "sda_i"}
 
 
 class Pmc006(Chip):
     """One PMC006B4. The model starts just after the release of reset, before edge 0.
 
-    Names of arguments in capitals are the parameters of the RTL. pwm_a_ref and pwm_b_ref are not in the log;
-    `pwm` returns them.
+    The RTL parameters have the names of these arguments, in capitals. pwm_a_ref and pwm_b_ref are not in the
+    log; `pwm` returns them.
 
     Args:
         clk_hz: 8e6..200e6.
@@ -139,7 +139,7 @@ class Pmc006(Chip):
     # ------------------------------------------------------------------ boot
 
     def _restore(self, t: int) -> None:
-        """Process FSET, which was low for the required time (P006-EEP-21)."""
+        """Process the restore request: FSET was low for the required time (P006-EEP-21)."""
         self._queue.at(t, Phase.END, self._restore_now)
 
     def _restore_now(self, t: int) -> None:

@@ -19,8 +19,8 @@ class CoreTiming:
 
     Attributes:
         reset: from the first edge with rst_n = 1 to the first internal edge.
-        answer: from e, the edge that samples the last stop bit of a frame, to the origin of the bit times of
-            the reply (<= 8).
+        answer: from e, the edge that samples the last stop bit of a frame, to the edge from which the bit
+            times of the reply are counted (<= 8).
         frame: from e to the first edge at which the executor may accept the frame.
         effect: from the edge at which the executor accepts the frame to the effect of the instruction.
         after: from the effect of an instruction to the first edge that may accept another instruction (frame
@@ -34,14 +34,14 @@ class CoreTiming:
             cleared, and until it is kept.
         fields: duration of the check of the parameter fields. Storing the parameters takes the same time
             again.
-        trigm: from the start of storing the parameters to the edge that stores TRIGM.
+        trigm: in the boot, from the start of the storage of the parameters to the edge that stores TRIGM.
         gpo: from a change of the output register to the pins.
         plan: from the rising edge of BUSY to the end of planning.
         step: from a us tick to mon_step.
         move_end: from mon_step of the last step to the falling edge of BUSY (<= 2).
         run_end: from a us tick to the falling edge of BUSY at the end of the speed mode.
-        grid: between two evaluations of the current references.
-        grid_from: from the first internal edge to the first evaluation.
+        grid: between two possible evaluations of the current references.
+        grid_from: from the first internal edge to the first possible evaluation of the references.
         refs: from an evaluation to the four reference outputs (grid + refs <= 64).
         enable: from the end of BOOT, or a change of FREE, to the change of the bridge outputs.
         idle: from a us tick to the end of the idle time.
@@ -132,9 +132,9 @@ SYNCHRONISED: dict[str, int] = {
     "scl_i": 1,
     "sda_i": 1,
 }
-"""Pins with a synchroniser of two flip-flops, with their levels after a reset.
+"""Pins with a synchroniser of two flip-flops, with the levels of the flip-flops after a reset.
 
-The chopper synchronises cmp_a and cmp_b.
+cmp_a and cmp_b are not included, because the chopper synchronises them.
 """
 
 

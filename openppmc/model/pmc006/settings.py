@@ -1,6 +1,6 @@
 """Registers of the PMC006B4 with legal values and factory values.
 
-Some registers are saved in a page of the EEPROM.
+A page of the EEPROM holds the saved values of some registers.
 
 Rules: P006-CMD (legal values), P006-EEP-10, -20.
 """
@@ -37,15 +37,15 @@ LEGAL: dict[str, Container[int]] = {
     "stlvl": range(512),
     "pp": range(200),
 }
-"""Values that an instruction or the EEPROM may write.
+"""Values that a host instruction or the EEPROM may write to each register.
 
-Neither can set `vmax` to 0 or `pp` to 200; only other sources in the part can.
+Other parts of the controller also write 0 to `vmax` and 200 to `pp`.
 """
 
 
 @dataclass
 class Settings:
-    """All registers except positions and flags, at their factory values."""
+    """All registers except positions and flags. The defaults are the factory values."""
 
     addr: int = 255
     mstep: int = 16
@@ -97,7 +97,7 @@ PLACES: dict[str, tuple[int, int]] = {
 
 
 def page_of(settings: Settings) -> bytes:
-    """Return the parameter block as instruction `t` writes it."""
+    """Return the parameter block that instruction t writes to the EEPROM."""
     page = bytearray(MAGIC + bytes(PAGE - 1 - len(MAGIC)))
     for name, (place, size) in PLACES.items():
         page[place : place + size] = int(getattr(settings, name)).to_bytes(size, "little")

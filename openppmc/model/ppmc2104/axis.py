@@ -68,7 +68,9 @@ def window_us(command: Command, triangle: bool = False) -> int:
 
 
 class Windows:
-    """The open processing window, if any, and the poll ticks, which a window delays.
+    """Processing windows, and the ticks at which inputs are polled.
+
+    At most one window is open. A window delays the ticks.
 
     This class is used only with DATASHEET timing.
 
@@ -85,10 +87,10 @@ class Windows:
         self.axis: int | None = None
 
     def open(self, t: int, us: int, axis: int | None) -> int:
-        """Open a window at edge t; return its last edge.
+        """Open a window of `us` microseconds (at a 16 MHz crystal) at edge t; return its last edge.
 
         Args:
-            axis: axis whose CMND indicates the window, `None` for no axis.
+            axis: 0 or 1, axis whose bit CMND is 1 during the window; `None` if no such bit is 1.
         """
         context = self._context
         end = t + context.timebase.cyc(16 * us) + context.latency.ds_window
@@ -103,9 +105,9 @@ class Windows:
         self.axis = None
 
     def _origin(self, t: int) -> int:
-        """Return the edge from which the poll ticks at edge t are counted.
+        """Return the origin from which the poll ticks at edge t are counted.
 
-        At the edge that opens a window, ticks are still counted from the old origin.
+        A window moves the origin. At the edge that opens the window, the old origin is still valid.
         """
         return self._origins[t > self._since]
 
@@ -153,7 +155,7 @@ class Motion(motion.Motion):
         self.set_hold_delay(HOLD_DEFAULT)
 
     def set_hold_delay(self, n: int) -> None:
-        """Set the hold delay to 128 (n + 1) us, for timers that are started later (P2104-AUX-05)."""
+        """Set the hold delay to 128 (n + 1) us; a timer that is running keeps its time (P2104-AUX-05)."""
         self.hold_cycles = HOLD_UNIT * (n + 1)
 
     # ------------------------------------------------------------------ start
@@ -192,7 +194,7 @@ class Motion(motion.Motion):
     def can_decelerate(self) -> bool:
         """True in state START, ACC or HIGH of operation 011 or 110.
 
-        These states accept a deceleration stop (P2104-STP-02, -03).
+        Only in these states is a deceleration stop accepted (P2104-STP-02, -03).
         """
         free = self._flag_edge is None and not self._natural
         return self.busy and self.is_ramp and not self.waiting and not self.finishing and free

@@ -176,7 +176,7 @@ def axis_levels(levels: Mapping[str, int], axis: int) -> dict[str, int]:
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return write strobe and read strobe in the bus style that busc selects (P2104-BUS-01, -02)."""
+    """Return (write strobe, read strobe) in the bus style that busc selects (P2104-BUS-01, -02)."""
     if pins["cs_n"]:
         return False, False
     first, second = not pins["ds_wrs_n"], bool(pins["rw_rds_n"])
@@ -210,7 +210,8 @@ class Interrupt:
     def release(self, t: int, cause: Cause, axis: int) -> None:
         """Clear a latch when it is read at edge t.
 
-        If the latch was set, INT* is high for the time W (P2104-INT-03, -04).
+        If the latch was set, INT* is high for the time W from edge t on, even if other latches are set
+        (P2104-INT-03, -04).
         """
         if (cause, axis) not in self._set:
             return

@@ -47,7 +47,7 @@ class CommandUnit:
         self._builder_free = -1
 
     def state(self) -> int:
-        """Return ERROR, CMND and BUSY as bits of the status register (P2104-STA-04..06)."""
+        """Return the status register with only its bits ERROR, CMND and BUSY (P2104-STA-04..06)."""
         bits = 0
         for axis in self._axes:
             n = axis.number
@@ -103,7 +103,7 @@ class CommandUnit:
             self._execute(t, command, [])
 
     def _code_error(self, command: Command) -> Error:
-        """Return the error of a code in the current state of its axis."""
+        """Return the error that a code causes in the current state of its axis, NONE if it is accepted."""
         axis, kind = self._axes[command.axis], command.kind
         motion = axis.motion
         if kind is Kind.UNDEFINED:
@@ -140,7 +140,7 @@ class CommandUnit:
             self._execute(t, command, data)
 
     def _data_error(self, command: Command, data: list[int]) -> Error:
-        """Return the error of the checks that follow the last byte of an instruction (P2104-ERR-05)."""
+        """Check an instruction after its last byte; return its error, or NONE (P2104-ERR-05)."""
         if command.kind is Kind.INITIALISE:
             return self._setting_error(command, data)
         if command.kind is Kind.OPERATION:
@@ -150,7 +150,7 @@ class CommandUnit:
         return Error.NONE
 
     def _setting_error(self, command: Command, data: list[int]) -> Error:
-        """Return the error of the values of an initial setting (P2104-INI-03)."""
+        """Check the values of an initial setting; return their error, or NONE (P2104-INI-03)."""
         setup = self._axes[command.axis].setup
         external = setup.external if setup else bool(command.code & 8)
         rl, rh, pa = data[0], data[1], data[2] | data[3] << 8
@@ -159,7 +159,7 @@ class CommandUnit:
         return Error.PA_TOO_LARGE if pa > PA_MAX else Error.NONE
 
     def _start_error(self, command: Command, data: list[int]) -> Error:
-        """Return the error of rate, rate limits and switches (P2104-ERR-05, P2104-LIM-06)."""
+        """Check rate, rate limits and switches before a start; return the error (P2104-ERR-05, -LIM-06)."""
         axis, other = self._axes[command.axis], self._axes[1 - command.axis]
         setup, levels = axis.setup, axis.context.levels
         assert setup is not None
@@ -204,7 +204,7 @@ class CommandUnit:
         return self._windows.open(t, window_us(command, triangle), None if no_axis else command.axis)
 
     def _at(self, t: int, end: int, action: Callable[[int], None]) -> None:
-        """Execute an action with FAST timing immediately, with DATASHEET timing at the window's end."""
+        """Execute an action immediately or, with DATASHEET timing, at the end of the processing window."""
         if end > t:
             self._context.queue.at(end, Phase.BEGIN, action)
         else:

@@ -53,8 +53,8 @@ class Ppmc2104(Chip):
             released: first edge after the reset.
         """
         counter = QuantumCounter(self.timebase, released + self.latency.reset_tick)
-        # After a reset, the synchronisers hold idle levels. Only the synchroniser of extck holds the level of
-        # its pin. Therefore, the part counts no clock edge that did not occur at the pin.
+        # After a reset, the synchroniser of extck holds the level of its pin, so the part counts no edge of
+        # the clock that did not occur at the pin. All other synchronisers hold idle levels.
         levels = {**INPUTS, "extck": pins["extck"]}
         context = Context(self.timebase, self.latency, self.datasheet, self._queue, self.log, counter, levels)
         self._context = context
@@ -138,8 +138,8 @@ class Ppmc2104(Chip):
 
     @property
     def status(self) -> int:
-        """Status register.
+        """Status register without transfers in progress.
 
-        A byte that is being stored in a buffer, or removed from it, at the moment is not considered.
+        IBF remains 0 until a written byte is stored, and OBF remains 1 until a byte that was read is removed.
         """
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)

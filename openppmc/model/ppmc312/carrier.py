@@ -22,8 +22,8 @@ class Carrier(carrier.Carrier[Ppmc312]):
 
     Bit 0 of the straps is RUN; bits 1 and 2 are event inputs 1 and 2.
 
-    The encoder outputs a pulse for each pulse that the shaft follows. The drive always asserts END.
-    `positions` holds the position of the shaft; the part itself counts pulses.
+    The shaft may lose pulses; the encoder outputs one pulse for each pulse that the shaft follows.
+    `positions` holds the position of the shaft, but the part counts all pulses. The drive always asserts END.
     """
 
     ADDRESS_BITS = 3
@@ -97,8 +97,8 @@ class Carrier(carrier.Carrier[Ppmc312]):
 class TableMove(Move):
     """Predicted move.
 
-    Rates are in ticks of the base clock; a tick has `divider` crystal periods. Indices are stages of the
-    table, `None` at constant speed.
+    A rate is the number of base clock periods of an interval; a base clock period is `divider` crystal
+    periods. An index is a stage of the table, `None` at constant speed.
 
     Attributes:
         kind: status bits in the response to the start instruction.
@@ -119,7 +119,7 @@ def predict_table(
 
     Args:
         rate: target speed, 0 for the high speed.
-        flat: True for a move without ramps (instruction 83).
+        flat: True for a move at constant speed (instruction 83).
 
     Raises:
         ValueError: the base clock is external, the rate is outside the table, or n is outside 1..2^32-1.

@@ -142,11 +142,12 @@ class Trigger(IntEnum):
 
 OV, LE, FO, DIR, IDX = 0x04, 0x10, 0x08, 0x40, 0x10
 
-# Codes with an override bit in their flag byte, and codes whose trigger may be a position.
+# The first set contains the codes with an override bit in their flag byte; the second contains the codes that
+# a position may trigger.
 OVERRIDABLE = frozenset({0x80, 0x81, 0x82, 0x83, 0x85, 0x86, 0x87, 0x88})
 POSITION_TRIGGERED = frozenset({0x80, 0x81, 0x87, 0x88})
 MOTION_STARTS = frozenset({0x10, 0x11, 0x82, 0x83, 0x84, 0x85, 0x86})
-# Codes that an event buffer may hold but never executes (P312-EVT-03).
+# Codes that may be registered in an event buffer, but that an event never executes (P312-EVT-03).
 NOT_FROM_EVENTS = frozenset({0x01, 0x41, 0x49})
 
 # Valid lengths of an instruction; 00 and 49 also depend on their parameters (P312-BLK-01 step 6).
@@ -174,8 +175,9 @@ _NORMAL_ONLY = ".O...."
 _START = (_NORMAL_ONLY, ".OOO..")
 _STOP = ("..OO..", ".OOO..")
 
-# Accept table (P312-STA-01). A row has one letter for each state, in the order of `_STATES`. The first row of
-# a pair is for OV = 0, the second for OV = 1. "O" means that the instruction is accepted.
+# Accept table (P312-STA-01). An instruction has a pair of rows: the first for OV = 0, the second for OV = 1.
+# A row has one letter for each state, in the order of `_STATES`. "O" means that the instruction is accepted
+# in this state.
 _ACCEPT: dict[int, tuple[str, str]] = {
     **{code: (_AT_REST, _AT_REST) for code in (0x00, 0x01, 0x02, 0x03, 0x04, 0x06)},
     **{code: (_AT_REST, _AT_REST) for code in (0x20, 0x21, 0x22, 0x23, 0x28, 0x41, 0x43)},
@@ -268,7 +270,7 @@ SERIAL_PINS = ("rxd",)
 class _BlockEvent(Event):
     """Event of a block.
 
-    The queue contains only the events of the current blocks.
+    It is cancelled when the blocks are replaced.
     """
 
     __slots__ = ()
@@ -283,7 +285,7 @@ class ResettableScheduler(Scheduler):
         self._alive = True
 
     def at(self, t: int, phase: int, action: Callback, kind: type[Event] = _BlockEvent) -> Event:
-        """Schedule a call of `action(t)`. The call is cancelled if the blocks are replaced before edge t."""
+        """Schedule a call of `action(t)`; it does not take place if the blocks are replaced before edge t."""
         event = self._queue.at(t, phase, action, kind)
         if not self._alive:
             event.cancel()

@@ -1,7 +1,7 @@
-"""All blocks of the PPMC-312 and its state, which the instructions change.
+"""All blocks of the PPMC-312, and the state that the instructions change.
 
-Rules: P312-STA, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side of the parallel bus;
-`connect` replaces it.
+Rules: P312-STA, P312-GEN-12, P312-INP-30..33. `make_host` creates the host side for the parallel bus;
+`connect` can replace it by the serial host side.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ class Core:
     """All blocks of the part.
 
     Args:
-        reset: reset(t, source) executes a software reset of the part, which sends a response.
+        reset: reset(t, source) executes the software reset that was requested by `source`, and sends its
+            response.
     """
 
     unit: Unit
@@ -78,7 +79,7 @@ class Core:
         self.host = make_host(self)
 
     def connect(self, host: HostSide, serial: bool) -> None:
-        """Connect the host side (parallel bus or line), which is determined just after a reset."""
+        """Use this host side, for the parallel bus or for the line. The pins select it just after a reset."""
         self.host, self.responses.serial = host, serial
 
     # ------------------------------------------------------------------ state
@@ -153,7 +154,7 @@ class Core:
             self.monitors.was_read(t, report.kind)
 
     def _on_pulse(self, t: int, direction: int) -> bool:
-        """Compare the position after a pulse; return True if an override stops the pulses there."""
+        """Compare the position after a pulse; return True if an override stops the pulses at the position."""
         position = self.counters.pulse
         released = self.fifo.count(t, position)
         if released:

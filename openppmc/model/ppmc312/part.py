@@ -1,8 +1,8 @@
 """Golden model of the PPMC-312 at pin level, event driven and cycle-accurate.
 
-`chip` and `clock` define pins and time. `front` contains the host interface, `instructions` the instructions,
-`stages` tables and plans, `motion` motion, positions, inputs and outputs; `core` connects them. This module
-contains P312-PRT-01..03, the reset and the software reset.
+`chip` and `clock` define pins and time. The other modules are `front` (host interface), `instructions`,
+`stages` (tables, plans of moves) and `motion` (motions, positions, inputs, outputs); `core` connects them.
+This module contains P312-PRT-01..03, the reset and the software reset.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ class Ppmc312(Chip):
 
     Attributes:
         replies: (edge at which snd rises, whole frame) of all frames that the station has sent.
-        sent: (edge in the middle of the stop bit, character). Both lists may be cleared at any time.
+        sent: (edge in the middle of the stop bit, character) of all characters sent. Both lists may be
+            cleared at any time.
     """
 
     INPUTS, WIDTHS, HOST_PINS = INPUTS, WIDTHS, HOST_PINS
@@ -166,7 +167,7 @@ class Ppmc312(Chip):
     def _set_run_level(self, t: int, level: int) -> None:
         """Update RUN, which has no register before the decision.
 
-        A start uses the level of RUN at the same edge, not that of the previous edge (P312-INP-20).
+        A start uses the level of RUN at the same edge, not the level at the previous edge (P312-INP-20).
         """
         if t >= self._pins_from + self.latency.input_sync:
             self.core.operation.run_level = level
@@ -206,7 +207,7 @@ class Ppmc312(Chip):
             self._host.ready(t)
 
     def _reset_outputs(self, t: int) -> None:
-        """Reset the pins that follow no internal level, and the pins that follow one a cycle later."""
+        """Reset the pins that follow no internal level, or follow an internal level one cycle later."""
         for pin in ("wrq_n", "txd", "snd", *_LATE):
             self.log.set(t, pin, OUTPUTS[pin])
 

@@ -77,7 +77,7 @@ class Table:
 
     @property
     def slowest(self) -> int:
-        """Rmax, the slowest rate of an instruction."""
+        """Rmax: slowest rate that an instruction may contain."""
         return self.rates[self.first]
 
     @property
@@ -92,12 +92,12 @@ class Table:
 
     @cached_property
     def sums_up(self) -> list[int]:
-        """For each stage, the sum of acceleration pulses of this stage and of all slower stages."""
+        """For each stage, the sum of the acceleration pulses in this stage and in all slower stages."""
         return list(accumulate(self.pa))
 
     @cached_property
     def sums_down(self) -> list[int]:
-        """For each stage, the sum of deceleration pulses of this stage and of all slower stages."""
+        """For each stage, the sum of the deceleration pulses in this stage and in all slower stages."""
         return list(accumulate(self.pd))
 
     def stage(self, rate: int) -> int:
@@ -146,7 +146,7 @@ def sigmoid_weights() -> tuple[int, ...]:
 
 
 def _shares(sigmoid: bool) -> list[Fraction]:
-    """Return the position of each stage between the slowest (0) and the fastest speed (1)."""
+    """Return the position of each stage on a scale from the slowest speed (0) to the fastest speed (1)."""
     if sigmoid:
         return [Fraction(w, 65536) for w in sigmoid_weights()]
     return [Fraction(i, LAST) for i in range(STAGES)]
@@ -217,7 +217,7 @@ def build(
 
 
 def read_back(table: Table) -> list[tuple[int, bytes]]:
-    """Return the blocks of a table read, in order, as (header, bytes after the length byte) (P312-CMD-41)."""
+    """Return the response to a table read: per block (header, bytes after the length byte) (P312-CMD-41)."""
     upward = range(LAST, -1, -1)
     counts = (STAGES - table.first, STAGES - table.sa, STAGES - table.sd if table.separate else 0)
     head = bytes([0x41, *counts]) + table.na.to_bytes(3, "big") + table.nd.to_bytes(3, "big")
@@ -249,7 +249,7 @@ class FreeCurve:
     """
 
     def __init__(self, header: int, parameters: bytes) -> None:
-        """Process the code block; check for the errors 0x10 and 0x11.
+        """Process the code block, and check it for the errors 0x10 and 0x11.
 
         Args:
             parameters: bytes after the code.

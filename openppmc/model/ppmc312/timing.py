@@ -69,7 +69,7 @@ class CoreTiming:
         reply: from the sampling for a reply, or from the stored response, to the rising edge of snd.
         clear: shortest time from the middle of the stop bit to the rising edge of snd, minus one bit.
         silence: addition to the 20 ms without a character that end a frame.
-        early: crystal cycles that are subtracted from a DATASHEET time, because this time has already passed.
+        early: crystal cycles that are subtracted from a DATASHEET time, because they have already passed.
         proc_time: from the end of a DATASHEET time to the effect of the instruction.
         pins: from an internal level to irq_n and intlk_n.
         wrq_fast: T_WRQ with FAST timing.
@@ -163,11 +163,11 @@ class CoreTiming:
     def filling(self, table: Table) -> int:
         """Return the cycles from the effect of instruction 00 to the last word of the table.
 
-        An arithmetic operation of n steps takes n + 4 cycles, a division one cycle more. The numbers of steps
-        are stated in parentheses. First, K RH and K Rs are calculated (24 each). Then, for each stage, the
-        speed D (24), D / 2 (1), C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated.
-        In a second pass, D is calculated again, and P D and its share of S (24 each) for each ramp that uses
-        the stage.
+        An arithmetic operation of n steps takes n + 4 cycles, a division one cycle more. The numbers in
+        parentheses are numbers of steps. P312-TBL-01, -02 and -04 define the symbols, except that C = K Rs
+        RH. First, K RH and K Rs are calculated (24 each). Then, for each stage, the speed D (24), D / 2 (1),
+        C + D / 2 and C / D (16 each), and, for each ramp, S + D (24) are calculated. In a second pass, D is
+        calculated again and, for each ramp that uses the stage, also P D and its share of S (24 each).
         """
         stages, speed, separate = 127, 28, int(table.separate)
         sides = (table.sa, table.sd) if separate else (table.sa,)

@@ -190,7 +190,7 @@ class ByteUnit(ABC):
         return self._execute(t, command, reference, [])
 
     def _code_error(self, command: Command) -> Error | None:
-        """Return the error of a command byte; the order of the checks is that of P104-ERR-01."""
+        """Return the error of a command byte; P104-ERR-01 defines the order of the checks."""
         motion, kind = self._motion, command.kind
         if kind is Kind.UNDEFINED:
             return Error.UNDEFINED
@@ -255,7 +255,7 @@ class ByteUnit(ABC):
         self._context.queue.at(done, Phase.BEGIN, self._complete)
 
     def _complete(self, t: int) -> None:
-        """Process the end of the table build; from now on, the motor current is chopped if bit 5 is set.
+        """Process the end of the table build: chop the motor current if bit 5 of the code is set.
 
         Rules: P104-INI-07/08, STMC-CHP-01/02.
         """

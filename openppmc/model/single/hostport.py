@@ -2,7 +2,7 @@
 
 Strobes and registers: P104-BUS-05..07, P2104-BUS-05..10. Mailbox: P104-HSK-01..04, P2104-HSK-01..04. Output
 queue: P104-HSK-05, -06, -08, P2104-HSK-06, -07. Each part defines the pins of a strobe, the other status
-bits, and the conditions for which a byte waits.
+bits, and the conditions under which a byte stays in the input buffer.
 
 The two registers that drive the bus (d_oe and d_o) sample a read strobe directly (P104-PORT-02, D-05). All
 other registers use the output of a synchroniser, which may sample the strobe up to one cycle later. Let E be
@@ -12,8 +12,8 @@ and S' are the first edges that no longer sample the strobe. The rules then stat
 - P104-BUS-05, P2104-BUS-06: d_oe rises at E and falls at E'. d_o is loaded at E and loaded again
   (refreshed) at each edge up to S + 1.
 - P104-HSK-05, P2104-BUS-08: a data read clears OBF at S' + 2 if OBF was 1 at the last refresh. The last
-  refresh is at S + 1, or at S if the synchroniser sampled the strobe only once. A read instruction that is
-  executed before S' + 2 has priority.
+  refresh is at S + 1, or at S if the synchroniser sampled the strobe only once. If a read instruction is
+  executed before S' + 2, OBF stays 1 for the answer of this instruction.
 - P104-HSK-05: from the last refresh on, a status read no longer shows the OBF of this byte.
 """
 
@@ -31,7 +31,7 @@ from .codes import Kind, decode
 
 
 def strobes(pins: Mapping[str, int]) -> tuple[bool, bool]:
-    """Return write strobe and read strobe. If both pins are low, there is no strobe (P104-BUS-02)."""
+    """Return (write strobe, read strobe); if wr_n and rd_n are both low, both are False (P104-BUS-02)."""
     selected = not pins["cs_n"]
     writing = selected and not pins["wr_n"] and bool(pins["rd_n"])
     reading = selected and not pins["rd_n"] and bool(pins["wr_n"])
@@ -79,7 +79,7 @@ class BytePort(Protocol):
     """Members of the host side that the commands and the motion use."""
 
     def answer(self, values: Iterable[int]) -> None:
-        """Load the bytes of a read command."""
+        """Load the response bytes of a read command into the output queue."""
 
     def close_until(self, t: int) -> None:
         """Accept no byte before edge t (processing window)."""
@@ -92,7 +92,7 @@ class HostPort:
         take: take(t, byte, is_command, stored_at) is called at the C-event; stored_at is the edge of the
             write event.
         state: state() returns all status bits except IBF and OBF.
-        strobes: strobes(pins) returns write strobe and read strobe.
+        strobes: strobes(pins) returns the levels of write strobe and read strobe; True = active.
         must_wait: must_wait(t, byte, is_command) returns True if the byte must stay in the buffer at edge t.
             If it returns True, it must call `retry` when the byte may pass.
     """
@@ -132,7 +132,7 @@ class HostPort:
         """Sample new levels of the bus pins at edge t (P104-BUS-05, -06).
 
         Args:
-            stage: levels of the strobes in the synchroniser, where they differ from the pins.
+            stage: levels of strobe pins that the synchroniser samples, if they differ from `pins`.
         """
         _, reading = self._strobes(pins)
         writing, sampled = self._strobes({**pins, **stage} if stage else pins)
@@ -159,8 +159,8 @@ class HostPort:
         if t <= self._last_refresh:
             value = self._output_byte
             if self._pins["a0"]:
-                # While the synchroniser still samples a write strobe, the byte of this strobe counts as
-                # waiting.
+                # As long as the synchroniser samples a write strobe, the byte of this strobe is treated as a
+                # waiting byte.
                 value = self.status | (IBF if self._writing and self._write_began < t else 0)
             self._context.log.set(t, "d_o", value)
         if not self._refreshing:
@@ -180,7 +180,7 @@ class HostPort:
         self._context.queue.at(t + 1, Phase.LEVELS, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Decide at edge S + 1 whether the read clears OBF, if this edge still samples the strobe."""
+        """If edge S + 1 still samples the strobe, decide at this edge whether the read clears OBF."""
         if self._sampled and t == self._read_began + 1:
             self._counts = self._is_final = self._is_data_read and self._readable
 
@@ -208,7 +208,7 @@ class HostPort:
     # ------------------------------------------------------------------ output queue
 
     def answer(self, values: Iterable[int]) -> None:
-        """Load the bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
+        """Load the response bytes of a read command; earlier bytes are discarded (P104-HSK-08)."""
         self._queue = list(values)
         self._output_byte = self._queue.pop(0)
         self.obf = True

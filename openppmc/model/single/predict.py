@@ -84,8 +84,8 @@ def predict_move(
     """Return the prediction of an undisturbed move of n pulses with the internal clock.
 
     Args:
-        init: the four initialisation bytes RL, RH, PA low, PA high; for "ppmc312" the parameters of an
-            initial setting, see `ppmc312.carrier`, which also predicts moves with free curves.
+        init: the four initialisation bytes RL, RH, PA low, PA high; for "ppmc312", the parameters of an
+            initial setting (for free curves, use `ppmc312.carrier`).
         n: number of pulses, 1..2^24.
         rate: `None` for a move with ramps, otherwise the rate of a constant-speed move.
         csel: level of the pin csel.
@@ -135,7 +135,7 @@ class Limits:
 def run(
     timebase: Timebase, clock: BaseClock, ramp: Ramp, n: int, rate: int | None, beyond: int = 0
 ) -> RampMove:
-    """Return the pulses of a checked move.
+    """Return the prediction of a move whose arguments have been checked.
 
     Args:
         beyond: number of base clock periods of an interval minus its rate. In the result, this number is

@@ -139,9 +139,9 @@ class SingleAxis(Chip):
 
     @property
     def status(self) -> int:
-        """Status register.
+        """Status register without transfers in progress.
 
-        A byte that is being stored in a buffer, or removed from it, at the moment is not considered.
+        IBF remains 0 until a written byte is stored, and OBF remains 1 until a byte that was read is removed.
         """
         return self._state() | (IBF if self._port.ibf else 0) | (OBF if self._port.obf else 0)
 

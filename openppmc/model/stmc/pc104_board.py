@@ -27,9 +27,11 @@ WIDTHS: dict[str, int] = {"sa": 10, "sd_i": 8, "sd_o": 8, "s": 5, "drv": 4}
 
 
 class J105Stmc:
-    """J105 board. Time and edges are those of the core.
+    """J105 board.
 
-    The other arguments are those of the core, without phase_idle.
+    The time and the output edges of the board are the same as those of its core.
+
+    The other arguments are the same as for the core, except that there is no phase_idle.
 
     Args:
         base_addr: even, 0..0x3FE.
@@ -66,7 +68,7 @@ class J105Stmc:
         )
         self._base = base_addr
         self._pins = dict(INPUTS)
-        # The core samples the register of the accumulator one edge later.
+        # The core samples the register of the accumulator one edge after it has changed.
         self._lag = self.core.latency.reset_tick + 1
         self._square = Square(clk_hz, ext_hz, self._lag)
         self.log = EdgeLog(OUTPUTS)

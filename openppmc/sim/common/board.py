@@ -54,8 +54,8 @@ class AxisStatus:
 class Status(AxisStatus):
     """State of the board.
 
-    The fields of AxisStatus are those of axis 1. `second` contains those of axis 2, and `axes` those of all
-    axes, axis 1 first.
+    The inherited fields of AxisStatus state axis 1. `second` states axis 2, and `axes` states all axes, axis
+    1 first.
 
     Attributes:
         seconds, clk: time of the board in s, and in cycles.

@@ -91,7 +91,7 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
-# Assertions would cost a third of the speed, and `make test` checks all of them.
+# Assertions are disabled, because they would cost a third of the speed, and `make test` checks all of them.
 # All C++ code is in one file, because with split files, the precompiled header does not work in each version
 # of Verilator.
 VERILATE = (
@@ -157,7 +157,7 @@ def board_program(root: Path, part: str) -> Program:
 def line_program(root: Path, part: str, more: tuple[str, ...] = ()) -> Program:
     """Return the program for stations on a line.
 
-    The top module is that of tb/<part>/line/line_node.sv, which contains the carrier.
+    The top module is the one in tb/<part>/line/line_node.sv; it contains the carrier.
 
     Args:
         more: additional sources, relative to tb/.
@@ -261,9 +261,8 @@ def _defines(params: dict[str, int | str]) -> str:
 def copy_runtime(source: Path, target: Path) -> None:
     """Copy the objects of Verilator's run-time library into `target`, unless it contains them.
 
-    The compilation of these objects takes longer than that of a design. The objects are equal for all builds
-    with the same arguments of compiler and Verilator. The source and target folders have the same parent
-    folder.
+    It takes longer to compile these objects than to compile a design. The objects are the same for all builds
+    with equal arguments of compiler and Verilator. The source and target folders have the same parent folder.
     """
     with _locked(target.parent / "runtime.lock"):
         target.mkdir(parents=True, exist_ok=True)

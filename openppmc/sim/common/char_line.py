@@ -124,8 +124,8 @@ S = TypeVar("S", bound=SimulatedStation)
 class CharLine(Generic[S]):
     """Line with its stations.
 
-    Until `settle` is called, stations that are not in `listeners` may be simulated up to an earlier time than
-    t. This has no visible effect, because the line is the only connection of the stations.
+    Until `settle` is called, the simulation of stations that are not in `listeners` may lag behind the time t
+    of the line. This has no visible effect, because the line is the only connection of the stations.
 
     Args:
         bit: duration of a bit in cycles, which may be a fraction.

@@ -1,4 +1,4 @@
-"""`openppmc.sim.KNOWN`. It has a separate module, because it loads the machine models of all parts."""
+"""`openppmc.sim.KNOWN`, in a separate module, because it loads the machine models of all parts."""
 
 from .spec import known_words
 

@@ -163,7 +163,7 @@ class SimLine(Child):
         say: function that prints a line if a step takes long; by default, it prints on standard error.
 
     Attributes:
-        spec: the requested line.
+        spec: settings of the line, as parsed from the text of the port.
     """
 
     def __init__(self, text: str, part: str = "", say: Callable[[str], None] | None = None) -> None:
@@ -199,7 +199,7 @@ class SimLine(Child):
         return LineStatus.parse(self._ask_status())
 
     def set_inputs(self, number: int, levels: str) -> LineStatus:
-        """Set the general inputs of a station, number 1 last, as "11111"; return the new state."""
+        """Set a station's general inputs from text such as "11110" (input 1 last); return the new state."""
         return LineStatus.parse(self._ask_status(f"inputs {number} {levels}"))
 
 

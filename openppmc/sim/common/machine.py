@@ -1,4 +1,4 @@
-"""Machine model of a motor controller as a text: `start=4000,cw=40000,alarm=100..200`.
+"""Text that describes the machine model of a motor controller: `start=4000,cw=40000,alarm=100..200`.
 
 The virtual board and the golden model use the same text. It consists of words with values
 (docs/virtual_board.md, Words). Words of axis 2 end in 2 (`cw2=30000`), and so on. The column `machine` of the
@@ -17,7 +17,7 @@ from ...model.chip import Chip
 
 PLANT_WORDS = tuple(one.name for one in fields(Plant) if one.name != "origin_from")
 ENCODER_WORDS = ("index", "block")
-"""Words that only a machine with an encoder supports."""
+"""Words of a port's text that only a machine with an encoder supports."""
 _OF_AXIS = re.compile(r"([a-z_]+?)([2-9]|[1-9][0-9])")
 
 
@@ -83,7 +83,7 @@ def machine_kind(part: str) -> MachineKind:
 
 
 def own_words() -> tuple[str, ...]:
-    """Return the words that only one part supports."""
+    """Return the words of a port's text that only one part supports."""
     return tuple(word for part in machine_parts() for word in machine_kind(part).own)
 
 
@@ -110,7 +110,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
     Raises ValueError, which names the word that is wrong.
 
     Args:
-        known: further words, which the caller accepts and no part supports.
+        known: further words that are accepted; the caller processes them, because no part supports them.
     """
     words: dict[int, dict[str, int | tuple[int, int]]] = {}
     others: dict[str, str] = {}
@@ -150,7 +150,7 @@ def parse_machine(text: str, known: Collection[str] = ()) -> Machine:
 
 
 def _first(condition: Callable[[MachineKind], bool]) -> tuple[str, MachineKind]:
-    """Return the first part that has a machine model."""
+    """Return the first part whose machine model satisfies the condition."""
     kinds = ((part, machine_kind(part)) for part in machine_parts())
     return next((part, kind) for part, kind in kinds if condition(kind))
 

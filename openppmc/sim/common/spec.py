@@ -24,7 +24,7 @@ def suffixes() -> Iterator[str]:
 
 
 def known_words() -> str:
-    """Return all known words as text for messages."""
+    """Return all words that a port's text may contain, as text for messages."""
     return ", ".join((*PLANT_WORDS, *OPTIONS, *own_words(), *FILES))
 
 

@@ -1,8 +1,8 @@
 """PMC006B4 on one line: RTL or models, with EEPROM, motor, mechanical load and two switches.
 
-The text is `address=1..3,start=2000,high3=9000,speed=max`. A word with a number at its end applies to the
-controller with that address; a word without a number applies to all. The EEPROM is modelled byte by byte,
-because a simulation of each bit would need most of the run time.
+The text after `sim:` or `model:` is, for example, `address=1..3,start=2000,high3=9000,speed=max`. A word with
+a number at its end applies to the controller with that address; a word without a number applies to all. The
+EEPROM is modelled byte by byte, because a simulation of each bit would need most of the run time.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Eeprom:
 
     Args:
         content: bytes from address 0; all other bytes are blank.
-        file: the content is stored here after each write.
+        file: file in which the content is stored after each write.
         missing: True if no EEPROM is connected.
 
     Attributes:
@@ -48,7 +48,7 @@ class Eeprom:
         self._sent = []
 
     def take(self, byte: int) -> None:
-        """Receive a byte of the controller: device, two address bytes, then data."""
+        """Receive the next byte from the controller; the order is device, two address bytes, data."""
         self._sent.append(byte)
         if len(self._sent) == 3:
             self._address = (self._sent[1] << 8 | byte) % SIZE
@@ -149,7 +149,7 @@ class LineSpec:
     """Requested virtual line.
 
     Attributes:
-        loads: one for each controller, by its address.
+        loads: mechanical load of each controller, by the address of the controller.
         twin: address that two controllers have, None if all addresses differ.
         baud: line rate in bit/s.
         step_ack: MANUAL or ECHO.
@@ -316,8 +316,8 @@ class Part(Pmc006):
 class Node(Carrier[Part], LineStation[Part]):
     """Controller with its mechanical load, after boot.
 
-    `position` is the position of the load in 1/16 full steps; the part itself counts steps. The switches do
-    not bounce.
+    `position` is the position of the load in 1/16 full steps; the position register of the part counts steps.
+    The switches do not bounce.
 
     Args:
         number: initial address of the controller.

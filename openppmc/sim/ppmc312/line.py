@@ -1,9 +1,9 @@
 """Up to sixteen PPMC-312 with their motors on one line, as RTL or as models in virtual time.
 
-The text is `stations=4,start=2000,alarm3=100..200,speed=max`. A word of the plant with a number at its end
-applies to the station with this number; a word without a number applies to all stations. The characters after
-a control code are delivered only to the models that the code addresses. All other stations would ignore them,
-and thus they need no computing time.
+The text after `sim:` or `model:` is, for example, `stations=4,start=2000,alarm3=100..200,speed=max`. A word
+of the machine model with a number at its end applies to the station with this number; a word without a number
+applies to all stations. The characters after a control code are delivered only to the models that the code
+addresses. All other stations would ignore them, and thus they need no computing time.
 """
 
 from __future__ import annotations
@@ -72,12 +72,12 @@ class LineSpec:
 
     @property
     def rate(self) -> float:
-        """Line rate in bit/s with this crystal."""
+        """Line rate in bit/s with the crystal frequency `xtal_hz`."""
         return self.baud * self.xtal_hz / 16_000_000
 
 
 def at_rate(text: str, rate: int) -> str:
-    """Return the text with the line speed for a host appended, unless the text names a speed.
+    """Return the text of a port; unless it names a line speed, append the speed of the host.
 
     Raises ValueError if no speed matches the rate.
 
@@ -164,7 +164,7 @@ def _station(item: str, text: str) -> int:
 
 
 class Station(Carrier, LineStation[Ppmc312]):
-    """Station with motor and encoder; `straps` sets RUN and the event inputs."""
+    """Station with its motor and encoder. The method `straps` sets RUN and the event inputs."""
 
     def __init__(self, plant: Plant, number: int, spec: LineSpec) -> None:
         straps = {"mode": 0, "mod": SPEEDS[spec.baud], "adr": number}

@@ -66,7 +66,7 @@ class Played:
 
 
 def play() -> Played:
-    """Run the host: initialise all axes, load all axes, send GO, read the results of all axes."""
+    """Run the host: initialise all axes, load a move into each, send GO, read the results of all axes."""
     host = Session(AXES, CLK_HZ)
     for one in ORDERS:
         host.send(one.axis, INIT, *one.ramp)
@@ -112,7 +112,7 @@ def trains(comparison: Comparison) -> list[list[int]]:
 
 
 def wrong(one: Order, pulses: list[int], played: Played) -> str:
-    """Return the first deviation of an axis from the prediction, or ""."""
+    """Return the first deviation of an axis from the prediction as text, or ""."""
     status, position = played.ends[one.axis]
     if len(pulses) != one.pulses:
         return f"{len(pulses)} pulses, not {one.pulses}"

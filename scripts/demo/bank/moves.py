@@ -16,7 +16,7 @@ RAMPED, CCW = 0x43, 0x08
 
 @dataclass(frozen=True)
 class Order:
-    """An initialisation and an acceleration/deceleration move of one axis."""
+    """An initialisation of one axis, and a move with acceleration and deceleration."""
 
     axis: int
     rl: int
@@ -31,7 +31,7 @@ class Order:
 
     @property
     def code(self) -> int:
-        """The command; odd axes go CCW."""
+        """The code of the command; odd axes move CCW."""
         return RAMPED | (CCW if self.axis & 1 else 0)
 
     @property

@@ -18,7 +18,7 @@ class Access(NamedTuple):
     """One access of the host.
 
     Attributes:
-        t: first edge with the strobe.
+        t: first edge at which the strobe is active.
     """
 
     t: int
@@ -44,7 +44,7 @@ class Recorder(PpmcBank):
 class Session:
     """A host session.
 
-    Axes count from 0, as in the window.
+    Axes are numbered from 0, as in the window.
 
     Attributes:
         t: next free edge.
@@ -82,13 +82,13 @@ class Session:
         return byte
 
     def poll(self, axis: int, bits: int = IBF) -> int:
-        """Read the status until the bits of `mask` are 0; return the status."""
+        """Poll the status until all bits of the mask `bits` are 0 in it; return this last status."""
         while (status := self.read(axis, STATUS)) & bits:
             pass
         return status
 
     def send(self, axis: int, code: int, *data: int) -> int:
-        """Send a command and its data, each byte when IBF is 0; return the status after the last byte."""
+        """Send a command and its data, each byte when IBF = 0; return the status after the last byte."""
         self.write(axis, STATUS, code)
         for byte in data:
             self.poll(axis)

@@ -57,7 +57,7 @@ class Carrier:
     ports: dict[str, Port]
 
     def two_way(self) -> dict[str, str]:
-        """Return each pin that is not always driven, with its driving port ("" if only pulled low)."""
+        """Return each pin that is not always driven, with the port that drives it ("": only pulled low)."""
         names = [name.removesuffix("_oe") for name in self.ports if name.endswith("_oe")]
         return {
             name: f"{name}_o" if f"{name}_o" in self.ports else ""
@@ -66,7 +66,7 @@ class Carrier:
         }
 
     def side(self, name: str) -> Port:
-        """Return the port of a pin that is not always driven: its input, or its output if it has no input."""
+        """Return a port of a pin that is not always driven: the input or, if it is missing, the output."""
         return self.ports.get(f"{name}_i") or self.ports[f"{name}_o"]
 
 

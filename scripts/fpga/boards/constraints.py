@@ -128,7 +128,7 @@ def files(fitted: Fitted) -> dict[str, str]:
 
 
 def files_in(fitted: Fitted, language: str) -> dict[str, str]:
-    """Return the pin file in one format, and the file with the clocks if this format has one."""
+    """Return the pin file in one format, and the file with the clocks if the format has one."""
     board, on, mark = fitted.board, fitted.on, COMMENT[language]
     about = f"{fitted.top}: {title(fitted)}. Wiring: docs/boards.md."
     lines = [*head(fitted, mark), *wrapped(mark, about, on.note)]

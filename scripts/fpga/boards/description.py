@@ -80,7 +80,7 @@ class Carried:
         goal: minimum frequency in MHz that the project requires.
         pll, set: parameters of the clock module and of the carrier.
         omit: parameters of the carrier that have no effect on this board.
-        low: inputs without a pin that read as 0, each with its reason; others without a pin read as 1.
+        low: inputs without a pin that read as 0, with reasons; all other inputs without a pin read as 1.
         pins: header pins, by title of the group and by signal.
     """
 
@@ -143,11 +143,11 @@ class Description:
 
     @property
     def languages(self) -> tuple[str, ...]:
-        """Suffixes of the pin files of the board, with those of a vendor's tool if the tool supports it."""
+        """Suffixes of the pin files, including those of a vendor's tool if such a tool supports the board."""
         return LANGUAGES[self.family][: None if self.vendor else 1]
 
     def constraints(self, on: Carried, language: str = "") -> str:
-        """Return the path of a pin file with this part below constraints/; by default, the first one."""
+        """Return the path, below constraints/, of a pin file for this part; by default, of the first one."""
         return f"{self.name}/{on.name}/pins.{language or self.languages[0]}"
 
 
@@ -168,7 +168,7 @@ def checked(where: str, section: str, found: Any) -> dict[str, Any]:
 def headers(where: str, found: Any) -> dict[str, str]:
     """Return the package pin of each header pin.
 
-    If a header is a list, the numbers printed on it are those of the package pins.
+    If the entry of a header is a list, the numbers on the header are those of the package pins.
     """
     pins: dict[str, str] = {}
     for header, named in found.items():

@@ -100,7 +100,7 @@ def _pad(board: Description, bit: str, pin: object, where: str, way: str, pull: 
 
 
 def _signal(fitted_to: str, carrier: Carrier, signal: str) -> tuple[list[str], str]:
-    """Return a signal's bits, lowest first, and direction; raise ProjectError if it does not exist."""
+    """Return a signal's bits, lowest first, and its direction; raise ProjectError if it is unknown."""
     name = signal.split("[")[0]
     if name == HOST_RESET:
         return [signal], "in"

@@ -40,7 +40,7 @@ def board_table(boards: tuple[Description, ...]) -> str:
 
 
 def timing_table(boards: tuple[Description, ...]) -> str:
-    """Return the table of the setup margins of the bitstreams, the smallest relative margin first."""
+    """Return the table of the setup margins of the bitstreams, with the smallest relative margin first."""
     figures = json.loads(TIMING.read_text(encoding="utf-8"))
     rows: list[tuple[float, tuple[str, ...]]] = []
     missing = []

@@ -116,7 +116,7 @@ class Top:
         return instance("ppmc_board_leds", {"ClkHz": "ClkHz"}, "u_leds", {**start, **leds})
 
     def own_connection(self, port: Port) -> tuple[bool, str | None]:
-        """Return (own, connection) of a carrier port; `own` is True for a port of clock, reset or LEDs."""
+        """Return (True for a port of clock, reset or LEDs; its connection) for a carrier port."""
         if port.name == "clk":
             return True, None if self.clk == "clk" else self.clk
         if self.own_leds and port.name in OWN_LEDS:

@@ -25,12 +25,12 @@ from scripts.fpga.flow.board_table import DESCRIPTIONS
 BOARD = "icebreaker"
 DESCRIPTION = next(of for of in DESCRIPTIONS if of.name == BOARD)
 NAMES = {DESCRIPTION.clock["port"]: "clk", DESCRIPTION.reset["port"]: "rst_n"}
-"""Ports of the netlist, by port of the board. Ports that are not listed keep their names."""
+"""Names of ports in the netlist, by name on the board; all other ports keep their names."""
 MISSING = "Project IceStorm is not installed (Debian: apt-get install fpga-icestorm)"
 CONVERTED = {"ICESTORM_LC", "ICESTORM_RAM", "ICESTORM_PLL", "SB_IO", "SB_GB"}
 """Cells that icebox_vlog converts. It omits all other cells, such as the large RAMs and multipliers."""
 CONSTANTS = 2
-"""Maximum number of logic cells that only nextpnr counts, because they are unused sources of 0 and 1."""
+"""Largest number of logic cells that only nextpnr counts, because they are unused sources of 0 and 1."""
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,7 @@ def tiles(path: Path) -> dict[str, list[str]]:
 
 
 def check_pll(of: Bitstream, text: str) -> None:
-    """Raise ProjectError unless the PLL in the bits makes the required clock from its oscillator."""
+    """Raise ProjectError unless the PLL in the bitstream makes the required clock from its oscillator."""
     assert of.pll is not None
     oscillator, clk_hz = of.pll
     bits = dict(re.findall(r"\.(DIV[RFQ]|FEEDBACK_PATH|PLLOUT_SELECT)\((?:\d'b)?(\S+)\)", text))

@@ -25,7 +25,7 @@ RAM_BELS = {"ice40": "ICESTORM_RAM", "ecp5": "DP16KD", "gowin": "BSRAM"}
 
 @dataclass(frozen=True)
 class Routed:
-    """Figures of one run: MHz of each clock domain, LUTs and block RAMs as (used, available)."""
+    """Figures of one run: MHz of each clock domain; LUTs and block RAMs, each as (used, available)."""
 
     clocks: dict[str, float]
     lut: tuple[int, int]

@@ -40,7 +40,7 @@ class Board:
     part: str = "ppmc104"
     code: str = ""  # four letters in the build ID of its bitstreams
     chip: str = ""  # Gowin family name for nextpnr and the packer
-    recipe: str = ""  # recipe of yosys_job; "" is the best recipe of the family
+    recipe: str = ""  # recipe of yosys_job; "" selects the best recipe of the family
 
     def folder(self, host: str) -> Path:
         """Return build/boards/<board> for the UART host, build/boards/<board>-<host> for another host."""
@@ -98,16 +98,16 @@ def by_part(descriptions: tuple[Description, ...]) -> dict[str, dict[str, Board]
 try:
     DESCRIPTIONS = load_all()
 except ProjectError as error:
-    # Every script that imports this module ends with a one-line message, not a traceback.
+    # A script that imports this module then ends with a one-line message, not with a traceback.
     raise SystemExit(project.fail(str(error))) from None
 BY_PART = by_part(DESCRIPTIONS)
 BOARDS = BY_PART["ppmc104"]
 PART_OF = {of.top(on): on.part for of in DESCRIPTIONS for on in of.parts}
-"""Part, by top."""
+"""Part of each top module."""
 CARRIED = {f"{row.rtl}_carrier": row.name for row in table.having("carrier")}
-"""Part, by carrier."""
+"""Part of each carrier module."""
 HOSTS_OF = {of.top(on): on.hosts for of in DESCRIPTIONS for on in of.parts}
-"""Hosts, by top."""
+"""Hosts that each top module supports."""
 
 
 def board(name: str, part: str = "ppmc104") -> Board:

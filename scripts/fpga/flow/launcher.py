@@ -24,8 +24,8 @@ BESIDE = {
     "ecppack": "yowasp-ecppack",
     "gowin_pack": "gowin_pack",
 }
-"""Programs in the folder of this Python, by the program that edalize starts."""
-OURS = {"procs": "proc", "renames": "rename"}  # names in Tcl of yosys commands whose own names Tcl uses
+"""Programs in the folder of this Python, by the name of the program that edalize starts."""
+OURS = {"procs": "proc", "renames": "rename"}  # Tcl names of yosys commands whose own names Tcl uses itself
 
 
 def run_tcl(script: str) -> None:

@@ -1,4 +1,4 @@
-"""Description of the machine on which speeds were measured, in one line."""
+"""Description, in one line, of the machine on which speeds are measured."""
 
 from __future__ import annotations
 

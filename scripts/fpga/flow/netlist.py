@@ -6,8 +6,8 @@ import json
 from collections import Counter
 from pathlib import Path
 
-# LUTs of iCE40, ECP5 and Gowin; on Gowin, an adder bit (ALU) occupies a LUT. A CCU2C counts as two LUTs, as
-# in the ECP5 packer.
+# Number of LUTs of each cell of iCE40, ECP5 and Gowin. On Gowin, an adder bit (ALU) occupies a LUT. A CCU2C
+# is two LUTs, as in the ECP5 packer.
 LUT_CELLS = {
     **{"SB_LUT4": 1, "LUT4": 1, "CCU2C": 2, "TRELLIS_DPR16X4": 6},
     **{"LUT1": 1, "LUT2": 1, "LUT3": 1, "ALU": 1, "RAM16SDP4": 4},

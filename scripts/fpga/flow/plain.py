@@ -39,7 +39,7 @@ Value = int | str
 
 
 def tops() -> dict[str, tuple[str, str]]:
-    """Return, by top module, its group in rtl/files.yml and its description; parts precede bridges."""
+    """Return (group in rtl/files.yml, description) of each top module by its name; parts precede bridges."""
     listed = project.listed()
     of_parts = {row.top: (row.rtl, listed[row.rtl].about) for row in parts.tops()}
     return of_parts | {name: ("host", about) for name, about in BRIDGES.items()}

@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ROOT, ProjectError, ran, relative, run
 from openppmc.sim.common.build import verilator_command, verilator_environment
 from scripts.fpga.flow.plain import RULES
 
-# Waived warnings: instances that omit unused outputs; a counter that the FPGA's configuration initialises.
+# Waived warnings: an instance omits an unused output; a counter is initialised by the configuration.
 BOARD_RULES = ("PINMISSING", "PROCASSINIT")
 
 

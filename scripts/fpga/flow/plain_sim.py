@@ -1,7 +1,7 @@
 """Run a recording on the RTL with Verilator alone, in a C++ loop.
 
-The difference to other runs shows the cost of a test harness. In the files of a run, a port wider than 32
-bits is stored as several words, each with a separate number.
+A comparison with the time of other runs shows the cost of their test harness. In the files of a run, a port
+wider than 32 bits is stored as several words, each with a separate number.
 """
 
 from __future__ import annotations

@@ -24,8 +24,8 @@ _CLEAR = re.compile(r"^    (\w+)\[\d+\] = ([^;]*);$")
 _INDEX = re.compile(r"\[\$signed\(\{ \d+'h0+, ([^{}]*) \}\) \+: ")  # an index that is never negative
 _ATOM = r"(?:\w+(?:\[[^\]]*\])?|\d+'h[0-9a-f]+)"
 _OPERAND = rf"(?:{_ATOM}|\{{[^{{}}]*\}}|\((?:[^()]|\((?:[^()]|\([^()]*\))*\))*\))"
-# Expressions whose value does not depend on the width of their context. These are operators with a one-bit
-# result whose operands have a fixed width, and a conditional whose two branches have the width of its result.
+# Expressions whose value does not depend on the width of their context: operators with a one-bit result whose
+# operands have a fixed width, and conditionals whose branches both have the width of the result.
 _ANYWHERE = re.compile(
     rf"(?:! |~\| |[|&^] ){_OPERAND}|{_OPERAND} (?:&&|\|\||==|!=|<|<=|>|>=) {_OPERAND}"
     rf"|{_OPERAND} \? {_OPERAND} : {_OPERAND}"
@@ -45,7 +45,7 @@ class Module:
 
 @dataclass(frozen=True)
 class Source:
-    """Comments of a module's source: the header, and those after ports and signals."""
+    """Comments of a module's source: the header, and the comments after ports and signals."""
 
     head: tuple[str, ...]
     comments: Mapping[str, str]

@@ -31,7 +31,7 @@ ECP5 = Device(
 )
 HX8K = Device("iCE40 HX8K", "ice40", ("--hx8k", "--package", "ct256", "--pcf-allow-unconstrained"))
 ASK_MHZ = 120
-"""Clock constraint for nextpnr. A clock rate that misses it is no error."""
+"""Clock constraint for nextpnr in MHz. A lower clock rate is not an error."""
 
 
 def _nextpnr(netlist: Path, folder: Path, stem: str, *options: str) -> None:
@@ -47,7 +47,7 @@ def _nextpnr(netlist: Path, folder: Path, stem: str, *options: str) -> None:
 
 
 def packed(netlist: Path, folder: Path) -> dict[str, int]:
-    """Return the cells of each type after packing. The netlist may have more pins than the device."""
+    """Return the numbers of cells by type after packing. The netlist may have more pins than the device."""
     _nextpnr(netlist, folder, "pack", "--pack-only")
     used = re.findall(r"^Info:\s+(\w+):\s+(\d+)/", (folder / "pack.log").read_text(), re.MULTILINE)
     return {kind: int(number) for kind, number in used}

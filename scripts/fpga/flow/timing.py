@@ -2,7 +2,7 @@
 
 The script copies the clock rate and the seed of each bitstream from its report.json into docs/timing.json.
 `make bitstream` and `make release` write the reports, for the seed whose bitstream they keep. The script
-ignores reports of other sources or with parameters. `make boards` writes the table in docs/boards.md.
+ignores reports of changed sources or with parameters. `make boards` writes the table in docs/boards.md.
 """
 
 from __future__ import annotations

@@ -17,8 +17,8 @@ FLOW2 = "scratchpad -copy abc9.script.flow2 abc9.script"
 
 # Each recipe adds a command before the synthesis pass of the family, and options to that pass. flow2 is an
 # abc9 script that repeats mapping and restructuring. -cmp2softlogic compares with constants without carry
-# chains; on ECP5, each end of a chain costs a cell. few-ce: all flip-flops of an iCE40 tile share one clock
-# enable, so the cells of an almost full device can be placed only if there are few different enables.
+# chains; on ECP5, each end of a chain costs a cell. few-ce limits the number of different clock enables: all
+# flip-flops of an iCE40 tile share one, so the cells of an almost full device could not be placed otherwise.
 RECIPES: dict[str, dict[str, tuple[str, str]]] = {
     "ecp5": {"default": ("", ""), "flow2-soft": (FLOW2, "-nowidelut -cmp2softlogic")},
     "ice40": {"default": ("", ""), "flow2": (FLOW2, ""), "few-ce": (FLOW2, "-dffe_min_ce_use 5")},

@@ -1,4 +1,4 @@
-"""Write the packages; or compare them with the existing files (--check), or try their use (--try)."""
+"""Write the packages, compare them with the existing files (--check), or try their use (--try)."""
 
 from __future__ import annotations
 

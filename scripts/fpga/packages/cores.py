@@ -17,7 +17,7 @@ HEAD = """CAPI=2:
 # Written by `make packages` from rtl/files.yml; change that, not this.
 """
 SMOKE_PART = "ppmc104"  # the part whose core has a sim target
-# Options of the FuseSoC target, by vendor's tool; file type in FuseSoC, by suffix of a constraint file.
+# Options of the FuseSoC target by vendor's tool, and file type in FuseSoC by suffix of a constraint file.
 FLOWS = {
     "vivado": "    flow: vivado\n    flow_options:\n      part: {device}\n",
     "quartus": "    default_tool: quartus\n    tools:\n      quartus:\n        family: {family}\n"
@@ -36,7 +36,7 @@ class Vendor:
 
 
 def vendor_boards() -> dict[str, Vendor]:
-    """Return the boards by FuseSoC target. The target of a board's first part has no suffix."""
+    """Return the boards by FuseSoC target; the name of the target for a board's first part has no suffix."""
     found = {}
     for board in load_all():
         for on in board.parts if "target" in board.vendor else ():

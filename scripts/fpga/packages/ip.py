@@ -60,7 +60,7 @@ FITS = {
 }
 NAMES = {f"{top}_axil": top for top in FITS}
 """Top module of the part, by package."""
-# AXI4-Lite signals: direction seen from the package, highest bit ("": a single bit, "a": an address).
+# AXI4-Lite signals: direction as seen from the package, and highest bit ("": one bit, "a": an address).
 AXI = {
     **{"awaddr": "ia", "awvalid": "i", "awready": "o", "wdata": "i31", "wstrb": "i3", "wvalid": "i"},
     **{"wready": "o", "bresp": "o1", "bvalid": "o", "bready": "i", "araddr": "ia", "arvalid": "i"},
@@ -139,7 +139,7 @@ def vector(port: Port) -> str:
 
 
 def bridge(fit: Fit) -> str:
-    """Return the name of the bridge module. Packages with equally many address lines share it."""
+    """Return the name of the bridge module, which packages with the same number of address lines share."""
     return f"ppmc_axil_{fit.bits}"
 
 

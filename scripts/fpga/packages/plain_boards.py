@@ -35,7 +35,7 @@ name: {CORE}
 description: OpenPPMC, boards with a PPMC-104 in plain Verilog
 """
 TYPES = {".pcf": "PCF", ".lpf": "LPF", ".cst": "CST", ".sdc": "SDC"}
-# The launcher is needed only if the tools of edalize's flows are not installed as programs.
+# The launcher is required only if the tools of edalize's flows are not installed as programs.
 LAUNCHER = ROOT / "scripts" / "fpga" / "flow" / "launcher.py"
 _FMAX = re.compile(r"Max frequency for clock .*: ([\d.]+) MHz \((PASS|FAIL) at ([\d.]+) MHz\)")
 
@@ -122,7 +122,7 @@ def built_result(name: str, folder: Path) -> Built:
         raise ProjectError(f"{name}: no bitstream in {relative(folder)}")
     # The last figure in the log is the clock rate after routing.
     reached, result, required_mhz = rates[-1]
-    # nextpnr works in whole picoseconds.
+    # nextpnr calculates in whole picoseconds.
     if result != "PASS" or abs(float(required_mhz) - on.clk_hz / 1e6) > 0.01:
         raise ProjectError(
             f"{name}: {reached} MHz, {result} at {required_mhz} MHz; clk is {on.clk_hz / 1e6:g} MHz"

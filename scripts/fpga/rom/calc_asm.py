@@ -16,7 +16,7 @@ WORDS = 512
 ENTRY = "Entry"
 """Prefix of the labels that the RTL uses."""
 MAX_LISTED = 8
-"""Maximum number of names that an error message lists."""
+"""Largest number of names that an error message lists."""
 ARITHMETIC = ("load", "add", "sub", "div")
 OPERAND_MODES = {(): "Plain", ("dec",): "Dec", ("lo",): "Low", ("lo", "dec"): "LowDec"}
 ENUM_TITLES = {
@@ -63,7 +63,7 @@ class Program:
 
 
 def names_of(package: str) -> Names:
-    """Return a package's enumerations as {enumeration: {name: code}}; omitted codes count up by 1."""
+    """Return {enumeration: {name: code}} of a package; an omitted code is the previous code + 1."""
     found: dict[str, dict[str, int]] = {}
     for body, enum in ENUM.findall(re.sub(r"//[^\n]*", "", package)):
         code = -1
@@ -197,7 +197,7 @@ class Coder:
         raise ValueError(f"{name} is not an instruction")
 
     def shape(self, rest: list[str]) -> tuple[int, int]:
-        """Return aux and operand of a `set`: which of phase, up and smooth it sets, and to what."""
+        """Return aux and operand of a `set`: which of phase, up and smooth it sets, and their values."""
         if rest == ["over"]:
             return 0b1000, 0
         selected = low = 0

@@ -71,7 +71,7 @@ def constant(label: str) -> str:
 
 
 def package_text(package: str, program: Program) -> str:
-    """Return the package; the text between its two marks is the entries and length of this program."""
+    """Return the package with the entries and the length of this program between its two marks."""
     before, begin, rest = package.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:

@@ -1,7 +1,7 @@
 """`make bench`: measure the speed of a demo on RTL and golden model.
 
 For the PPMC-104 it also measures the virtual board and the commands. The figures are written between their
-markers in docs/benchmarks.md. Times in seconds depend on the machine and its load. Ratios of two times of one
+markers in docs/benchmarks.md. Times in seconds depend on the machine and its load. Ratios of two times in one
 run are repeatable.
 """
 

@@ -82,7 +82,7 @@ class _Writer:
         return t + 3000
 
     def flush(self) -> None:
-        """Write all data that is still in the buffer."""
+        """Write the data in the buffer to the file."""
         self.file.write("\n".join(self._lines) + "\n" * bool(self._lines))
         self._lines.clear()
 
@@ -231,7 +231,7 @@ class Figures(NamedTuple):
 
 
 def measure(folder: Path, name: str, edges: int = EDGES, runs: int = 3) -> Figures:
-    """Decode one of FILES `runs` times; return the seconds of the fastest run and the largest size."""
+    """Decode one of FILES `runs` times; return the highest speed, the lowest ratio, the largest size."""
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / name
     if name == COMPARED:
@@ -256,7 +256,7 @@ def bench() -> None:
     """Measure, print and write docs/benchmarks.md."""
     rows = []
     for name, text in FILES.items():
-        # In a comparison, most of the time is used by the golden model.
+        # A comparison spends most of its time in the golden model.
         found = measure(project.BUILD / "bench", name, runs=1 if name == COMPARED else 3)
         figures = (f"{found.rate / 1e6:.2f}", f"{found.plain:.1f}", f"{found.size:.1f}")
         rows.append([text, f"{found.edges:,}", *figures])

@@ -36,7 +36,7 @@ class Case:
 
     Attributes:
         stations: number of stations, which all move.
-        text: all other settings in the text of the line.
+        text: all other settings, in the form of a `sim:` port.
     """
 
     what: str

@@ -1,6 +1,6 @@
 """Run times of a demo in three programs ("sides"): RTL with cocotb, RTL in Verilator alone, golden model.
 
-In each turn, every side runs once. Thus, other load affects a ratio of one turn only little.
+In each turn, every side runs once. Thus, other load on the machine has little effect on the ratios of a turn.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Times:
         return median(self.seconds[side])
 
     def ratio(self, side: str) -> float:
-        """Return the median of the ratio of a side's time to that of Verilator alone in the same turn."""
+        """Return the median ratio of a side's time to the time of Verilator alone in the same turn."""
         pairs = zip(self.seconds[side], self.seconds[PLAIN], strict=True)
         return median(taken / plain for taken, plain in pairs)
 

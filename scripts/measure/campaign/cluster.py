@@ -1,4 +1,4 @@
-"""The workers of a campaign: processes of this machine, or those of a scheduler on the network.
+"""The workers of a campaign: processes of this machine, or the workers of a scheduler on the network.
 
 Dask is imported only when a cluster is opened, so that `make test` does not need it.
 """
@@ -16,11 +16,11 @@ from typing import Any
 from cocotb_tests.harness.project import ProjectError
 
 SETTINGS = {
-    # A slow worker must not count as lost: it may have to wait for simulators, which use all processors.
+    # A slow worker must not be treated as lost: it may have to wait, because simulators use all processors.
     "distributed.scheduler.worker-ttl": "15 minutes",
     "distributed.comm.timeouts.connect": "60s",
-    # A job counts as failed when it has lost its worker more often than this number. Dask counts a lost
-    # worker for all jobs that are assigned to it. Therefore, no job may wait at a worker.
+    # A job has failed when it has lost its worker more often than this number. Dask counts a loss for all
+    # jobs that are assigned to the worker. Therefore, no job may wait at a worker.
     "distributed.scheduler.allowed-failures": 3,
     "distributed.scheduler.worker-saturation": 1.0,
     "distributed.admin.system-monitor.gil.enabled": False,
@@ -29,7 +29,7 @@ SETTINGS = {
 
 @dataclass(frozen=True)
 class Workers:
-    """Workers: `count` processes of this machine, or all those of `scheduler` (tcp://host:port)."""
+    """Workers: `count` processes of this machine, or all workers of `scheduler` (tcp://host:port)."""
 
     count: int = 2
     scheduler: str = ""

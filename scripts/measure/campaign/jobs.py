@@ -1,4 +1,4 @@
-"""Data types of a campaign."""
+"""Data types that describe a campaign."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class Job:
     """One piece of work; its `key` is unique in a campaign, and its `what` is sent to the worker by pickle.
 
     Attributes:
-        stamp: digest of everything except the key on which the result depends; "" = digest of the tree.
+        stamp: digest of all that the result depends on, except the key; "" = digest of the tree.
     """
 
     key: str
@@ -41,7 +41,7 @@ class Done:
 
 @dataclass(frozen=True)
 class Campaign:
-    """A campaign calls `work(job.what)` for `count` jobs; its name and their keys identify results."""
+    """A campaign calls `work(job.what)` for `count` jobs. Its name and the key of a job identify a result."""
 
     name: str
     work: Callable[[Any], Result]

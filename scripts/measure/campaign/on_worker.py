@@ -17,12 +17,12 @@ from scripts.measure.campaign.tree import tree
 
 @cache
 def _own_tree() -> str:
-    """Return the digest of the sources at the start of this process, which imports no later changes."""
+    """Return the digest of the sources at the start of this process, which ignores later changes."""
     return tree()
 
 
 class OwnSession(WorkerPlugin):  # type: ignore[misc]
-    """Processes with a separate session: Ctrl-C reaches only the campaign, not its workers and simulators."""
+    """Processes in a separate session, so that Ctrl-C does not reach the workers and their simulators."""
 
     name = "openppmc-own-session"
 
@@ -34,7 +34,7 @@ class OwnSession(WorkerPlugin):  # type: ignore[misc]
 
 
 def stop_children() -> int:
-    """Kill all processes that this worker has started, mostly simulators; return their number."""
+    """Kill all processes that this worker has started, most of which are simulators; return their number."""
     children = psutil.Process().children(recursive=True)
     for child in children:
         try:

@@ -1,4 +1,4 @@
-"""Run a campaign on Dask: stored results are reused, workers run the other jobs, and each result is stored.
+"""Run a campaign on Dask: reuse stored results, run the other jobs on workers, store each result.
 
 If a worker is lost, another one repeats its job. Ctrl-C ends the workers and their child processes; the next
 run of the same campaign continues after the stored results.
@@ -18,7 +18,7 @@ from scripts.measure.campaign.store import RESULTS, Store
 from scripts.measure.campaign.tree import tree
 
 AHEAD = 3
-"""Number of submitted jobs per worker: enough to keep it busy, few because Ctrl-C discards them."""
+"""Number of submitted jobs per worker: enough to keep it busy; few, because Ctrl-C discards them."""
 LOST = "its workers were lost"
 
 

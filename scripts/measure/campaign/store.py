@@ -26,7 +26,7 @@ class Store:
     def __init__(self, path: Path = RESULTS) -> None:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            # Several campaigns may write at the same time; each waits for the lock for up to a minute.
+            # Several campaigns may write at the same time. Each waits up to a minute for the lock.
             self._base = sqlite3.connect(path, timeout=60, isolation_level=None)
             self._base.execute("pragma journal_mode = wal")
             self._base.execute("pragma synchronous = normal")

@@ -1,4 +1,4 @@
-"""Copies of the RTL with the same lines, in which Verilator counts correctly.
+"""Copies of the RTL with the same line numbers, in which Verilator counts correctly.
 
 Verilator puts the counter of a block after its last statement. If this statement is a `return`, the counter
 is never reached. Before its pull request 8425, Verilator also loses the counters of a package that contains
@@ -40,7 +40,7 @@ class Copy:
         self._changes.append((at, at, new))
 
     def _list(self, statements: Sequence[Any], name: str) -> None:
-        """Change the statements that end a function, and the statements that end a branch at its end."""
+        """Change the last statement; move the statements after an `if` with `return` into an else branch."""
         for number, node in enumerate(statements):
             if node is statements[-1]:
                 self._last(node, name)

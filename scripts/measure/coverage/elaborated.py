@@ -1,4 +1,4 @@
-"""Functions that only elaboration calls: no simulation runs them, so their lines and branches do not count.
+"""Functions that only elaboration calls: no simulation runs them, so the coverage does not include them.
 
 A function is called only by elaboration if each call of its name in rtl/ satisfies one of these conditions:
 
@@ -6,7 +6,7 @@ A function is called only by elaboration if each call of its name in rtl/ satisf
 - its arguments contain only parameters, genvars and numbers;
 - it is inside another function of this kind.
 
-Names are compared as text. If one call of a name satisfies no condition, all functions of this name count.
+Names are compared as text. If one call of a name satisfies no condition, all its functions are included.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Call:
 
     Attributes:
         inside: name of the function that contains the call, or "".
-        constant: True if the call is constant (see the text of the module).
+        constant: True if the call satisfies one of the first two conditions (see the text of the module).
     """
 
     name: str
@@ -52,7 +52,7 @@ class Function:
 
 
 def _last(node: Any) -> str:
-    """Return the name without packages and selects."""
+    """Return the name in a node, without packages and selects."""
     while kind(node) == "ScopedName":
         node = node.right
     return str(node.getFirstToken().valueText)

@@ -90,7 +90,7 @@ def elaborated() -> str:
 
 
 def cross(of: Cross, counts: Counter[tuple[str, str]]) -> Iterator[str]:
-    """Yield the table of a cross. In a cell, **0** means not seen, – means impossible."""
+    """Yield the table of a cross. A cell contains **0** if its case was not seen, – if it is impossible."""
     reasons: dict[str, None] = {}
     rows = []
     for name in of.rows:
@@ -126,7 +126,7 @@ def of_part(part: parts.Row, counts: Counter[str]) -> Iterator[str]:
 
 
 def page(sums: Sums, counts: Counter[str], tests: int, all_tests: int, old: bool = False) -> str:
-    """Return the whole page; its figures are from `tests` of all tests.
+    """Return the whole page; its figures are from `tests` of `all_tests` tests.
 
     Args:
         old: True if some results may be from earlier versions of the sources.

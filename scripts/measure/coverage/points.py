@@ -1,8 +1,8 @@
 """Points of the RTL that Verilator counts, from its coverage.dat (lines `C '<fields>' <count>`).
 
 A point has the name "<file> <line> <column> <kind> <what>", with the file relative to the project's root. A
-place that occurs in several instances, parameter sets and simulations is one point. The point is covered if
-at least one of these occurrences is covered.
+place is one point, even if it occurs in several instances, parameter sets and simulations; it is covered if
+one of these occurrences is covered.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def _fields(text: str) -> Mapping[str, str]:
 
 
 def read(files: Iterable[Path]) -> Points:
-    """Return all points of the RTL in these files; other sources (benches, wrappers) do not count."""
+    """Return all points of the RTL in these files, without those of other sources (benches, wrappers)."""
     points = Points()
     for file in files:
         for line in file.read_text(encoding="utf-8", errors="replace").splitlines():

@@ -33,13 +33,13 @@ class Figure:
 
     @property
     def left(self) -> float:
-        """Percentage of covered points among all points without explained holes; 100 if there are none."""
+        """Percentage of covered points if explained holes are not counted; 100 if there are no points."""
         others = self.all - self.known
         return 100 * self.reached / others if others else 100.0
 
     @property
     def good(self) -> bool:
-        """True if at least 98 % are covered and each hole is explained."""
+        """True if at least 98 % of the points are covered and each hole is explained."""
         return self.percent >= 98 and self.reached + self.known == self.all
 
 

@@ -18,7 +18,7 @@ class BridgeBoard:
     """Board with a bridge.
 
     Attributes:
-        starts: true positions of the motors at which the counters of a new board are 0.
+        starts: true positions of the motors when the session begins; the counters of the board are then 0.
     """
 
     def __init__(self, text: str) -> None:
@@ -26,7 +26,7 @@ class BridgeBoard:
         self.starts = list(self.port.board.positions)
 
     def positions(self) -> list[int]:
-        """Return the true positions of the motors now."""
+        """Return the present true positions of the motors."""
         board = self.port.board
         board.run_until(board.t)
         return list(board.positions)
@@ -50,7 +50,7 @@ class LineBoard:
         self.starts = self.positions()
 
     def positions(self) -> list[int]:
-        """Return the true positions of the motors now."""
+        """Return the present true positions of the motors."""
         self.port.line.settle()
         return [self.port.line.stations[0].position]
 
@@ -70,10 +70,10 @@ class Target:
         axes: returns the axes of the driver that a session uses.
         prepare: initialises an axis.
         jog: starts an endless motion in the positive direction.
-        group: True if the part starts several axes together.
-        queue: True if the axes have `moves`.
+        group: True if the part can start several axes together.
+        queue: True if the axes have the method `moves`.
         baud: rate at which the driver opens its port.
-        crc: True if the frames have a CRC; False: a checksum, which may miss two faults in a frame.
+        crc: True if the frames have a CRC; else they have a checksum, which may miss two faults in a frame.
     """
 
     make: Callable[[], Any]

@@ -52,7 +52,7 @@ class Fault:
 
     Attributes:
         to_board: True for a byte from the host to the board.
-        place: number of bytes in this direction that precede the damaged byte.
+        place: number of bytes before the damaged byte in this direction.
         detail: number of the inverted bit (modulo 8), or index in DELAYS (modulo its length).
     """
 

@@ -136,7 +136,7 @@ class Player:
         self._check_position(axes[0], 0)
 
     def _spans(self, ways: dict[int, Sequence[int]]) -> list[Span]:
-        """Return the range of positions of each motor, if axes move by the given distances."""
+        """Return the range of possible positions of each motor if axes move by the given distances."""
         found = []
         for number, at in enumerate(self.board.positions()):
             way = [at, *(at + distance for distance in ways.get(number, ()))]
@@ -188,7 +188,7 @@ class Player:
     # ------------------------------------------------------------------ after the session
 
     def _continue(self, error: PpmcError) -> None:
-        """After an exception, check that the same objects state the true position or raise again."""
+        """After an exception, check that the same objects state the true position, or raise one again."""
         if self._device is None or self._restarted or isinstance(error, Disconnected):
             return
         try:

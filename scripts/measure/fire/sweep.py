@@ -1,4 +1,4 @@
-"""Selection of the faults of a session by its seed: consecutive seeds damage every byte of a session."""
+"""Selection of the faults of a session by its seed. Consecutive seeds damage every byte of a session."""
 
 from __future__ import annotations
 

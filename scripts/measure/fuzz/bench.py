@@ -71,7 +71,7 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, with the words up to it, but without unneeded first words."""
+    """Return a difference as text, with the words up to it; first words that do not matter are removed."""
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

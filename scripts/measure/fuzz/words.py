@@ -37,7 +37,7 @@ def stream(rng: random.Random, size: int, good: Frame, special: Sequence[int]) -
 
 
 def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
-    """Return some characters without a frame."""
+    """Return a valid frame, a frame with a fault, noise, or two pieces of frames."""
     kind = rng.random()
     if kind < 0.35:
         return good(rng)
@@ -52,7 +52,7 @@ def _piece(rng: random.Random, good: Frame, special: Sequence[int]) -> bytes:
 
 
 def _spoilt(rng: random.Random, frame: bytes, special: Sequence[int]) -> bytes:
-    """Return a frame with one fault: a changed bit or byte; a missing, repeated or added byte; no end."""
+    """Return a frame with one fault: a changed bit or byte, a missing, repeated or added byte, or no end."""
     place = rng.randrange(len(frame))
     before, byte, after = frame[:place], frame[place], frame[place + 1 :]
     kind = rng.randrange(6)

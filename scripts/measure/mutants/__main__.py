@@ -23,7 +23,7 @@ from scripts.measure.mutants.table import Mutant, mutants
 
 CHECK, COMPARISON, ASSERTION, HANGS = "check", "comparison", "assertion", "no end"
 BATCH = 8
-"""Number of tests in one process. No further process starts after one in which a test fails."""
+"""Number of tests in one process. After a process in which a test fails, no other process starts."""
 
 
 def cause(outcome: Outcome) -> str:

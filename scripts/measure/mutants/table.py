@@ -61,8 +61,8 @@ class Mutant:
     def items(self, wide: bool = False) -> list[Item]:
         """Return tests of the mutant's build.
 
-        These are the tests in the module of `caught`, or the tests that the words of the entry select, or all
-        tests.
+        They are the tests in the module of `caught`; without it, the tests that the entry's words select, or
+        all.
 
         Args:
             wide: True for all tests of the build.

@@ -63,7 +63,7 @@ def sizes(selected: list[Design]) -> figures.Figures:
 
 
 def measure(selected: list[Design], rates: bool) -> None:
-    """Measure the changed designs; before that, the clock rates of designs with changed RTL are deleted."""
+    """Delete the clock rates of designs with changed RTL, then measure the changed designs."""
     held = figures.read() if figures.FILE.is_file() else {}
     known = {design.key for design in designs.all_designs()}
     held = {key: entry for key, entry in held.items() if key in known or key.startswith(figures.PEER)}

@@ -30,7 +30,7 @@ from scripts.measure.sizes.peers import Peer
 RECIPES = ("plain", "tuned")
 """Recipes for parts on an ECP5: `synth_ecp5` without options, and the recipe of the bitstreams."""
 TURNS, SEEDS = 3, 5
-"""A clock rate is measured with TURNS perturbations of the synthesis × SEEDS seeds of place and route."""
+"""Numbers of perturbations of the synthesis, and of seeds of place and route, for each clock rate."""
 AXES = {"ppmc2104": 2, "isa_4axis": 4}
 """Number of axes of parts with more than one axis. For a bank, the number is in the name of the design."""
 BANKS = (4, 8, 16, 32, 64)
@@ -113,7 +113,7 @@ class Design:
         return seen.hexdigest()[:16]
 
     def netlist(self, turn: int = 0) -> Path:
-        """Synthesise the design with a perturbation; number 0 is the unchanged recipe."""
+        """Synthesise the design with a perturbation (0: the unchanged recipe); return the netlist."""
         return run_yosys(self.folder / f"turn-{turn}", self._job(turn))
 
     def size(self) -> dict[str, int]:
@@ -145,7 +145,7 @@ class Design:
         return made if made.is_file() else self.netlist()
 
     def _kept(self, turn: int) -> Path:
-        """Return the netlist of a perturbation, which all its seeds use."""
+        """Return the stored netlist of a perturbation, which all its seeds use."""
         folder = self.folder / f"turn-{turn}" / "routed"
         work = self._job(turn) | self._wrapped()
         file = folder / f"{work['family']}-{work['recipe']}.json"
@@ -188,7 +188,7 @@ def of_parts() -> list[Design]:
     bank = parts.part("bank")
     for axes in BANKS:
         job = _job(bank.top, project.sources(bank), {"AXES": axes, "CLK_HZ": BANK_CLK_HZ})
-        # Measuring the clock rate of one bank takes an hour.
+        # The clock rate of a bank is not measured: for one bank, this takes an hour.
         found += [
             Design(f"bank {axes}", "ecp5", r, "bank", job, rated=axes == 32, axes=axes) for r in RECIPES
         ]
@@ -208,7 +208,7 @@ def of_carriers() -> list[Design]:
 
 
 def of_bridges() -> list[Design]:
-    """Return host bridges with one address line, and recorders of several sizes."""
+    """Return the designs in BRIDGES, for each of their FPGA families."""
     found = []
     for top, title, params, families in BRIDGES:
         job = _job(top, list(project.files("char_host" if top == "ppmc_char_host" else "host")), params)

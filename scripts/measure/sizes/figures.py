@@ -2,7 +2,7 @@
 
 The file maps the key of a design to {"lut", "ff", "ram", "comb" (ECP5), "mhz" (rated designs), "of"}. LUT, FF
 and block RAM are counted after synthesis; COMB is the number of logic cells that nextpnr packs. "mhz" has a
-value for each of TURNS perturbations of the synthesis × SEEDS seeds, or is empty if not measured yet.
+value for each of TURNS perturbations of the synthesis × SEEDS seeds; it is empty before the measurement.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Figures = dict[str, dict[str, Any]]
 FILE = DOCS / "sizes.json"
 COUNTS = {"lut": "LUT", "ff": "FF", "ram": "block RAM"}
 LIMIT = 5
-"""Growth of a count in per cent that `make size` accepts."""
+"""Largest growth of a count, in per cent, that `make size` accepts."""
 RUNS = TURNS * SEEDS
 PEER = "peer "
 """Beginning of the keys of designs whose sources are not in this tree."""
@@ -79,7 +79,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
             change = f"{key}: {title} {old[name]} -> {new[name]}"
             if old[name]:
                 change += f" ({100 * (new[name] - old[name]) / old[name]:+.1f} %)"
-            # Integer arithmetic, so that a growth of exactly the limit passes.
+            # Use integer arithmetic, so that a growth of exactly the limit passes.
             if 100 * new[name] > (100 + limit) * old[name]:
                 found.wrong.append(f"{change}, more than {limit} % larger")
             elif 100 * new[name] < (100 - limit) * old[name]:
@@ -88,7 +88,7 @@ def compare(committed: Figures, now: Figures, limit: int = LIMIT) -> Comparison:
 
 
 def stale(figures: Figures, designs: Iterable[Design] | None = None) -> list[str]:
-    """Return a line per design without figures, with figures of other RTL, or that no longer exists."""
+    """Return a line for each design that has no figures, has figures of other RTL, or no longer exists."""
     where, remedy = relative(FILE), "run `make report` and `make docs`"
     lines, keys = [], set()
     for design in all_designs() if designs is None else designs:

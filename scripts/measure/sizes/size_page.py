@@ -27,7 +27,7 @@ def _pair(found: Figures, name: str) -> list[dict[str, Any] | None]:
 
 
 def _cells(found: Figures, name: str, axes: int = 0) -> list[str]:
-    """Return FF and RAM, then for each recipe COMB, COMB per axis (only with `axes`), and MHz."""
+    """Return FF and RAM, and then for each recipe COMB, with `axes` also COMB per axis, and MHz."""
     both = _pair(found, name)
     cells = [str(both[0][key]) if both[0] else "–" for key in ("ff", "ram")]
     for entry in both:
@@ -129,7 +129,7 @@ def bank(found: Figures) -> str:
 
 
 def axis_costs(found: Figures) -> tuple[dict[str, tuple[int, float]], dict[str, int]]:
-    """Return COMB per axis with the plain recipe: ours as (axes, COMB), and other designs."""
+    """Return COMB per axis with the plain recipe: of our designs as (axes, COMB), and of other designs."""
     kinds = {d.name: d for d in designs.of_parts() if d.name in ("ppmc104", "ppmc2104", "isa_4axis")}
     measured = {name: found.get(f"{name} ecp5 plain") for name in kinds}
     family = {

@@ -32,7 +32,7 @@ IGNORED = {"__pycache__", "img", "wavedrom", "include"}
 
 
 def modules(folder: str) -> list[str]:
-    """Return the modules that are next to the folders of the package: those of parts, and shared ones."""
+    """Return the modules next to the folders of the package: modules of parts, and shared modules."""
     if not folder.startswith("openppmc/"):
         return []
     return [path.stem for path in sorted((ROOT / folder).glob("*.py")) if not path.stem.startswith("__")]
@@ -51,7 +51,7 @@ def _lines(names: Sequence[str], width: int) -> str:
 
 
 def folders() -> Figure:
-    """Draw layers as rows and parts as columns. A cell lists folders, in the package also modules."""
+    """Draw layers as rows and parts as columns; a cell lists folders and, for the package, modules."""
     columns = [row.name for row in parts.folders()]
     widths = [1.95, 2.7, *(1.15 if name in ("ppmc104", "ppmc2104", "stmc") else 1.75 for name in columns)]
     lefts = [sum(widths[:n]) for n in range(len(widths))]

@@ -47,7 +47,7 @@ class Arrow:
 
 
 def _border(box: Box, towards: tuple[float, float]) -> tuple[float, float]:
-    """Return the point on the border of a box from which a line leaves at a right angle towards a place."""
+    """Return the point on the border of a box at which a line towards a place leaves it at a right angle."""
     dx, dy = towards[0] - box.x, towards[1] - box.y
     if abs(dx) <= box.width / 2:
         return towards[0], box.y + (box.height / 2 if dy > 0 else -box.height / 2)

@@ -23,7 +23,7 @@ SMALL = 11 / 13
 
 @dataclass(frozen=True)
 class Area:
-    """An occupied rectangle in px, from the first column on; `node` in `parent` can be removed."""
+    """An occupied rectangle in px; x = 0 is the first column. `node` in `parent` is the SVG element."""
 
     left: float
     right: float

@@ -15,7 +15,7 @@ from fontTools.ttLib import TTFont
 COLUMN = 688
 """Width of the text on a page of the site in px. It is larger in windows above 1220 px and on GitHub."""
 MOST = COLUMN * 11 // 10
-"""Maximum width of a drawing in px; on the page, its smallest text of 11 px then has 10 px."""
+"""Largest width of a drawing in px. In the page, its smallest text of 11 px then has 10 px."""
 STEPS = ({"hscale": 2}, {"hscale": 3, "skin": "narrow"}, {"hscale": 1}, {"hscale": 1, "skin": "narrow"})
 """WaveDrom's `hscale` and skin for columns of 80, 60, 40 and 20 px."""
 WIDTHS = (80, 60, 40, 20)
@@ -29,7 +29,7 @@ TRIES = sorted(
     ((rows, *step) for rows in range(1, 5) for step in zip(WIDTHS, STEPS, strict=True)),
     key=lambda found: (found[0] + 1.5 * (found[1] < 40), -found[1]),
 )
-"""Rows and column widths, best first: few rows, wide columns. Columns below 40 px count as 1.5 rows."""
+"""Rows and column widths, best first: few rows (columns below 40 px count as 1.5 more), wide columns."""
 
 Lane = dict[str, Any]
 
@@ -70,7 +70,7 @@ def step_of(drawing: dict[str, Any]) -> int:
 
 
 def _columns(lane: Lane) -> int:
-    """Return the columns of a line, without the additional one of a line that is half a cycle early."""
+    """Return the columns of a line, without the additional column of a line that is half a cycle early."""
     return len(lane.get("wave", "")) - bool(lane.get("phase"))
 
 
@@ -91,7 +91,7 @@ def width(drawing: dict[str, Any], step: int) -> float:
 
 
 def readable(drawing: dict[str, Any], step: int) -> bool:
-    """Return whether all texts fit in their boxes, and the edge numbers fit above their columns."""
+    """Return whether all texts fit into their boxes, and all edge numbers above their columns."""
     tick = drawing.get("head", {}).get("tick")
     every = list(lanes(drawing["signal"]))
     if tick is not None and text_width(str(max(map(_columns, every)) + tick)) > step:
@@ -169,7 +169,7 @@ def _rows(drawing: dict[str, Any], step: int, count: int) -> dict[str, Any] | No
 
 
 def fitted(drawing: dict[str, Any]) -> dict[str, Any]:
-    """Return a drawing with at most MOST px; raise ValueError if this is not possible."""
+    """Return a drawing that is at most MOST px wide; raise ValueError if this is not possible."""
     drawing = deepcopy(drawing)
     config = drawing.setdefault("config", {})
     if "signal" not in drawing:

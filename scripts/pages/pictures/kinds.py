@@ -7,6 +7,6 @@ from typing import Any
 
 
 def made(entry: dict[str, Any]) -> Any:
-    """Call the function that `kind` of an entry names with its other values; return the result."""
+    """Call the function that `kind` of an entry names, with the entry's other values; return its result."""
     arguments = {name: value for name, value in entry.items() if name != "kind"}
     return pkgutil.resolve_name(f"scripts.pages.{entry['kind']}")(**arguments)

@@ -24,7 +24,8 @@ class Train:
 
     Attributes:
         first: number of the first pulse.
-        cause: interval in which the move was changed, counted from 0. A triangle marks its speed.
+        cause: interval in which the move was changed, counted from 0. A triangle marks the speed of this
+        interval.
         slowest: ticks of an interval at start-up speed. If it is given, a square marks the last pulse.
     """
 

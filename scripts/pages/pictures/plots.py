@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from openppmc.model.motion.ramp import Ramp
 
-# Properties that would differ between runs are fixed: ids, the date, fonts (drawn as outlines).
+# These settings fix what would differ between runs: ids, the date, fonts (drawn as outlines).
 STYLE = {
     "svg.hashsalt": "openppmc",
     "svg.fonttype": "path",

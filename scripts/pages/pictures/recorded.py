@@ -1,4 +1,4 @@
-"""Timing diagrams from the golden model: levels at chosen clk edges become lines of a WaveDrom drawing."""
+"""Timing diagrams from the golden model: WaveDrom drawings of the levels at chosen clock edges."""
 
 from __future__ import annotations
 
@@ -21,13 +21,12 @@ COLOURS = "345"  # codes of WaveDrom's filled boxes; successive boxes use them i
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a diagram: its name, and a pin or flag, or a function of all levels (None: don't care).
+    """One line of a diagram: its name, and a pin, a flag or a function of all levels (None: don't care).
 
     `text` returns the text in the box of a vector's value; without `text`, the line is a single bit.
 
     Attributes:
-        host: True if the host drives the line, which then changes half a cycle before the edge that samples
-            it.
+        host: True if the host drives the line. It is then drawn half a cycle before the edge that samples it.
         nodes: letter at each column where an arrow begins or ends.
     """
 
@@ -109,7 +108,7 @@ def wave(row: Row, samples: Samples) -> dict[str, Any]:
 
 
 def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]) -> list[int | None]:
-    """Return the columns, in which a gap replaces columns without a change of any line."""
+    """Return the columns, with a gap in place of columns in which no line changes."""
     levels = [None if found is None else tuple(row.of(found) for row in rows) for found in samples]
     last = len(columns) - 1
     while last > 1 and levels[last] == levels[last - 1] == levels[last - 2]:
@@ -126,7 +125,7 @@ def thinned(columns: Sequence[int | None], samples: Samples, rows: Sequence[Row]
 
 
 def numbered(edges: Sequence[int | None]) -> tuple[list[str | None], str]:
-    """Return the texts of the edges with letters for long numbers, and a line that explains them."""
+    """Return the texts of the edges, with letters for long numbers, and a line that explains the letters."""
     words: list[str | None] = []
     told: dict[int, str] = {}
     for edge in edges:
@@ -147,7 +146,7 @@ def _zeros(number: int) -> int:
 
 
 def labels(name: str, words: Sequence[str | None]) -> dict[str, Any]:
-    """Return a line with a word in each column, a gap for None. A word covers empty columns after it."""
+    """Return a line with the word of each column (None: a gap). A word covers empty columns after it."""
     drawn, data = "", list[str]()
     for word, before in zip(words, (None, *words), strict=False):
         begins = word is not None and (word or not before)
@@ -190,7 +189,7 @@ class Start:
 
 
 def level(text: str) -> Callable[[Levels], int | None]:
-    """Return the function for "pin", or "pin while other = value" (None at other values of `other`)."""
+    """Return the function for "pin" or "pin while other = value"; its result is None at another value."""
     found = LEVEL.fullmatch(text)
     if found is None:
         raise ValueError(f"{text}: write `pin` or `pin while other = value`")
@@ -262,7 +261,7 @@ def diagram(
     shown = columns_of(columns)
     schedule = [change for action in do for change in start.action(*action)]
     groups = rows if isinstance(rows, dict) else {"": rows}
-    # Instead of a gap, the edge before the next column is sampled, to find changes that the gap would hide.
+    # For a gap, sample the edge before the next column, to find changes that the gap would hide.
     at = [start.base + (shown[n + 1] - 1 if edge is None else edge) for n, edge in enumerate(shown)]
     found = record(start.model, start.inputs, schedule, at, start.flags)
     gaps = [] if hides else [n for n, edge in enumerate(shown) if edge is None]

@@ -18,7 +18,7 @@ def spaced(value: float, digits: int = 0) -> str:
 
 
 def _cell(rate: int, us: Fraction, column: Entry) -> list[str]:
-    """Return the cells of a rate: its speed (marked for a short interval), moves that permit it."""
+    """Return the cells of a rate: its speed, marked if the interval is short, and moves that permit it."""
     speed = 1_000_000 / us
     text = spaced(float(speed), column.get("digits", 0 if speed >= 10_000 else 1))
     text = next((mark.format(text) for limit, mark in column.get("marks", {}).items() if us < limit), text)

@@ -18,7 +18,7 @@ from scripts.pages.pictures.diagram_width import width as lines
 
 XLINK = "http://www.w3.org/1999/xlink"
 FONTS = "Helvetica, Arial, 'DejaVu Sans', sans-serif"
-# Sizes in px, not points, because some viewers do not know the dpi; larger labels; darker numbers.
+# Labels are larger and numbers darker. Sizes are in px, because some viewers do not know the dpi.
 STYLES = (
     ("font-family:Helvetica", f"font-family:{FONTS}"),
     ('font-family="sans-serif"', f'font-family="{FONTS}"'),
@@ -27,7 +27,7 @@ STYLES = (
     (".muted{fill:#aaa}", ".muted{fill:#444;font-size:12px}"),
 )
 REF = re.compile(r"url\(#([^)]+)\)")
-LABEL_GROWTH = 1.5  # WaveDrom's white area below a label fits the size that the label has without STYLES
+LABEL_GROWTH = 1.5  # growth of the white area below a label: WaveDrom's area fits labels without STYLES
 
 
 def _referenced(root: ET.Element) -> set[str]:
@@ -42,13 +42,13 @@ def _referenced(root: ET.Element) -> set[str]:
 
 
 def _style(root: ET.Element) -> None:
-    """Set the colours of the default skin; the waveform pieces of the narrow skin have equal numbers."""
+    """Set the colours of the default skin; pieces of waveforms have the same numbers in the narrow skin."""
     for style in root.iter(f"{{{SVG}}}style"):
         style.text = WaveSkin["default"][2][2]
 
 
 def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
-    """Enlarge the picture if names, head or foot are wider than WaveDrom assumes."""
+    """Enlarge the picture if its names, head or foot are wider than WaveDrom assumes."""
     (lanes,) = (node for node in root.iter() if node.get("id") == "lanes_0")
     (marks,) = (node for node in root.iter() if node.get("id") == "gmarks_0")
     _, _, y = lanes.get("transform", "").rstrip(")").partition(",")
@@ -67,7 +67,7 @@ def _texts_whole(root: ET.Element, drawing: dict[str, Any]) -> None:
 
 
 def _tidy(svg: str, drawing: dict[str, Any]) -> str:
-    """Remove unused bricks, add a white background and use fonts that exist everywhere."""
+    """Remove unused pieces of waveforms, add a white background, use fonts that exist everywhere."""
     ET.register_namespace("", SVG)
     ET.register_namespace("xlink", XLINK)
     root = ET.fromstring(svg)

@@ -86,11 +86,11 @@ class Use:
 
     @property
     def resistor(self) -> str:
-        """Value of the resistors at the FPGA's side."""
+        """Value of the resistors on the FPGA's side."""
         return STRONG if self.strong else WEAK
 
     def number(self, of: int | str) -> int:
-        """Return a quantity of circuits.yml as a number; words mean the number of pins or chips."""
+        """Return a quantity of circuits.yml as a number; a word represents the number of pins or of chips."""
         pins = sum(pad.port != "d_oe" for pad in self.pads)
         counts = {"pin": pins, "chip": -(-pins // self.circuit.channels)}
         return of if isinstance(of, int) else counts.get(of, sum(pad.port == of for pad in self.pads))
@@ -123,7 +123,7 @@ def uses(fitted: Fitted) -> list[Use]:
         if pad.bit not in own:
             pads.setdefault(_circuit_of(fitted, pad), []).append(pad)
     if "steps" in pads:
-        # Step pins are sorted by motor, because the driver carrier of a motor counts as one chip.
+        # Step pins are sorted by motor, because the driver carrier of a motor is one chip.
         pads["steps"].sort(
             key=lambda pad: int(pad.bit.rstrip("]").rpartition("[")[2]) if "[" in pad.bit else 0
         )
@@ -132,7 +132,7 @@ def uses(fitted: Fitted) -> list[Use]:
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
-    """Return quantity, description and order number of each item, added up over all circuits."""
+    """Return (quantity, description, order number) of each item; the quantities of all circuits are added."""
     lines = Counter[tuple[str, str]]()
     for use in found:
         value = "2K2" if not use.strong else "1K"

@@ -18,7 +18,7 @@ BOARD, WIRE, CHIP, OUT, FAR, END = 0.0, 5.6, 8.4, 13.4, 15.2, 23.6
 INK, PALE, FIVE, LOW = "#1b2733", "#eef2f6", "#c0392b", "#0b6fb8"
 TINY, SMALL, TEXT, TITLE = 8, 9.5, 10, 11.5
 DRAWN = 2
-"""Maximum number of motors for which each driver carrier is drawn separately."""
+"""Largest number of motors for which each driver carrier is drawn separately."""
 BEHIND = {
     "MAX3485": ("A and B: the line's pair, grounds joined", FIVE),
     "24LC32A": ("", LOW),
@@ -110,7 +110,7 @@ def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, 
 
 
 def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
-    """Draw the pins of a channel, and the wire on its far side."""
+    """Draw the pins of a channel, and the wire on the side of the machine or old host."""
     chip = use.circuit.chip
     if pad.port == "d_oe":
         _text(sheet, CHIP + 0.2, at, "DIR", SMALL)
@@ -134,7 +134,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
-    """Write the many resistors on the FPGA's side as text on their wires, instead of symbols."""
+    """Write the values of the resistors on the FPGA's side on their wires; symbols would be too many."""
     to = text(use.circuit.pull, pad)
     if to:
         x = (WIRE + CHIP) / 2

@@ -91,7 +91,7 @@ def reset(axis: Axis) -> None:
 
 
 def _initialise(session: Session, axes: list[Station312], typed: dict[str, Any]) -> list[Any]:
-    """Make the plans of all stations, then initialise them; return the set-ups that are reached."""
+    """Plan the set-ups of all stations, then initialise the stations; return the set-ups that are reached."""
     xtal_hz = session.bus.line.identity.xtal_hz
     plans: list[Any] = [setup_values(typed, one.number).plan(xtal_hz, one.kind, one.number) for one in axes]
     reached = []
@@ -148,7 +148,8 @@ def _finish(session: Session, motions: list[Any], asked: int | None = None) -> N
     """Wait for all motions and print their results.
 
     Args:
-        asked: requested pulses. If it is not None, the first motion that ended early raises an error.
+        asked: number of requested pulses. If it is not None, an error is raised for the first motion that
+            ended early.
     """
     ends = session.bus.wait(motions, progress=session.guard.progress)
     session.guard.bar_off()

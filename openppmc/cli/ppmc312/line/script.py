@@ -1,6 +1,6 @@
 """Script files for a line of PPMC-312.
 
-The commands are those of a board, and each command names its station.
+The commands are the same as for a board, but each command names its station.
 """
 
 from __future__ import annotations
@@ -69,14 +69,14 @@ class LineSession:
         return self.part.axis(number)
 
     def selected_axes(self, number: int | None) -> Sequence[Any]:
-        """Return the station with this number, all stations of the script for None."""
+        """Return the station with this number; for None, all stations of the script."""
         return [self.axis(one) for one in ([number] if number is not None else self.used)]
 
 
 def check_line(steps: Iterable[Step], name: str) -> None:
     """Raise ScriptError for steps that a line does not support.
 
-    These are motions that name no station, moves of two axes, and commands of other parts.
+    A line does not support motions that name no station, moves of two axes, and commands of other parts.
     """
     for step in steps:
         where = f"{name}:{step.line}: "

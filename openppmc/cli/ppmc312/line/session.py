@@ -38,7 +38,7 @@ class Session:
     guard: Guard
 
     def selected_axes(self, text: str | None) -> list[Station312]:
-        """Return the stations that --axis names, which must all reply; else all that reply."""
+        """Return the stations of --axis, all of which must reply; without --axis, all that reply."""
         if text is not None:
             numbers = parse_stations(text)
             self.bus.check(numbers)
@@ -47,7 +47,7 @@ class Session:
         return [self.bus.axis(number) for number in numbers]
 
     def scan(self) -> list[ScanResult]:
-        """Return all stations that reply; show a bar during the search."""
+        """Return all stations that reply; show a progress bar during the search."""
         found = self.bus.scan(progress=self._on_scan_progress)
         self.guard.bar_off()
         return found

@@ -19,7 +19,7 @@ _HEADS = ("station", "version", "state", "position", "framing", "overrun", "chec
 
 
 def found_table(found: Iterable[ScanResult]) -> Table:
-    """Return a table of stations with their error counters and those of the master."""
+    """Return a table of the stations, with the error counters of each station and those of the master."""
     from rich.table import Table
 
     grid = Table(box=None, pad_edge=False)

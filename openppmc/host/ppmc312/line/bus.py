@@ -34,11 +34,11 @@ class ScanResult:
     """Station found by `scan`.
 
     Attributes:
-        version, status, position: state of the station; `None` if the replies are corrupt.
+        version, status, position: values read from the station; `None` if the replies are corrupt.
         errors: error counters of the station, which the scan has cleared; `None` if they could not be read
             because of a motion or an alarm.
         counters: counters of the master.
-        problem: description of a problem, or an empty text.
+        problem: description of a problem; empty if there is none.
     """
 
     station: int
@@ -87,7 +87,7 @@ class Ppmc312Bus(LineBus[Line, Station312]):
         clears the error counters of stations whose motor is stopped.
 
         Args:
-            progress: called with each number before it is polled.
+            progress: called with the number of each station before the station is polled.
         """
         found = []
         for number in stations:

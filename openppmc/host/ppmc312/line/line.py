@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 
 
 class LineCapabilities(profile.TableCapabilities):
-    """Capabilities of a line. Stations are axes, and their numbers begin with 0."""
+    """Capabilities of a line. Each station is an axis; the numbers begin with 0."""
 
     def check_axis(self, axis: int) -> int:
         return station_number(axis)
@@ -158,14 +158,15 @@ class Line(Master[Reply]):
     Args:
         spec: any port that pyserial supports (`/dev/ttyUSB0`, `COM3`, `socket://host:port`, `rfc2217://…`),
             `sim:…` or `model:…`.
-        speed: 19200, 38400 or 83333 bit/s as set by the MOD pins of the stations.
-        sum_mode: checksum rule of the stations.
+        speed: 19200, 38400 or 83333 bit/s; the MOD pins of the stations must select the same rate.
+        sum_mode: how the stations calculate the checksum.
         echo: True if the master receives its own bytes, as with two-wire adapters that do not switch their
             receiver off.
         rs485: settings of pyserial for adapters whose transmitter is switched by RTS.
         patience: time in s that the master waits for a reply in addition to the transmission time on the
             line.
-        xtal_hz: crystal frequency of the stations in Hz; the line rates are proportional to it.
+        xtal_hz: crystal frequency of the stations in Hz; the line rates above are valid for 16 MHz and are
+            proportional to it.
 
     Raises:
         PortError: the port cannot be opened.
@@ -193,7 +194,7 @@ class Line(Master[Reply]):
         port = open_line(spec, baud, "ppmc312-serial", rs485) if isinstance(spec, str) else spec
         super().__init__(port, baud, echo, patience)
         self.sum_mode = known
-        # The stations do not report their TIMING, so the time limits are those of DATASHEET.
+        # The stations do not report their TIMING, so the master uses the time limits of DATASHEET timing.
         self.identity = Identity(1, 312, True, True, 0, xtal_hz, xtal_hz, STATIONS)
         self.counters = {number: Counters() for number in range(STATIONS)}
 

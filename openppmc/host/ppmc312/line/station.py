@@ -20,7 +20,7 @@ from .wire import ERROR_CODE, ERROR_COUNTS, station_number
 _MOST_PPS = 4_000_000
 """Speed in pulses/s that no table exceeds: rate 2 at 8 MHz."""
 _ENCODER_SLACK = 64
-"""Largest difference at which two reads of the encoder agree: half the value of bit 7 of its lowest byte."""
+"""Largest difference of two agreeing reads of the encoder: half the value of bit 7 of its lowest byte."""
 
 
 class ErrorCounts(NamedTuple):
@@ -53,10 +53,10 @@ class SerialMotion(Motion):
         return Progress(position, done, self.requested, self._link.clock() - self._started)
 
     def _on_stop_report(self, report: Stopped) -> None:
-        """Process the report that the motion has ended, and compare it with the request.
+        """Process the report that the motion has ended, and compare it with the requested motion.
 
-        The line may damage the request or the reported position such that it still appears valid. Therefore,
-        the position is read again if the report does not match the request.
+        Noise may change the number of pulses in the request, or the position in the report, without an error
+        being detected. Therefore, the position is read again if the report does not match the request.
         """
         super()._on_stop_report(report)
         if self.result_error is not None:
@@ -84,10 +84,10 @@ class SerialMotion(Motion):
 class Station312(Axis[SerialMotion]):
     """One station, with the methods of `ppmc312.Ppmc312`.
 
-    The line has no access to free curves, tables and event buffers (OutOfRange). Polls of the station return
-    its reports. After a lost reply, an instruction is repeated only if the repetition has no side effect
-    (`LostReplyResolver`). The driver raises LostReply if it cannot determine whether the instruction was
-    executed.
+    In serial mode, there is no access to free curves, tables and event buffers: such calls raise OutOfRange.
+    The station sends a report only as the reply to a poll. After a lost reply, an instruction is repeated
+    only if the repetition has no side effect (`LostReplyResolver`). The driver raises LostReply if it cannot
+    determine whether the instruction was executed.
 
     Args:
         number: 0 to 15.
@@ -126,7 +126,8 @@ class Station312(Axis[SerialMotion]):
     def poll(self) -> list[Report]:
         """Poll the station until no report is pending; return the new reports, oldest first.
 
-        The ends of motions that this object started are not returned, but set in the `result` of each motion.
+        Reports of the ends of motions that this object started are not returned; they set the `result` of the
+        motion.
         """
         self.window.collect()
         taken = list(self.reports)
@@ -162,7 +163,7 @@ class Station312(Axis[SerialMotion]):
     # ------------------------------------------------------------------ instructions of the line only
 
     def error_code(self) -> int:
-        """Return the last error code (42 to 49) that the station has sent in a reply, 0 for no error.
+        """Return the last error code, 42 to 49, that the station sent in a reply; 0 if there was none.
 
         The read clears the code. Raises AxisBusy while the motor is moving.
         """
@@ -208,7 +209,7 @@ class Station312(Axis[SerialMotion]):
     def _position(self, encoder: bool) -> int:
         """Read the position until two successive reads agree, and return it.
 
-        Two reads agree if their difference is at most the distance that the motor can move between them.
+        Two reads agree if the motor can have moved by their difference in the time between them.
         """
         times: list[float] = []
 
@@ -235,6 +236,6 @@ class Station312(Axis[SerialMotion]):
         self._slow_override |= block[2] == Code.SLOW_STOP
 
     def _start(self, block: bytes, direction: int, requested: int | None = None) -> SerialMotion:
-        # Reports that are still pending now are older than this motion.
+        # Read the reports that are pending now, because they are older than this motion.
         self.window.collect()
         return super()._start(block, direction, requested)

@@ -47,8 +47,9 @@ from .wire import (
 
 # After a lost reply, the driver determines whether the instruction was executed, so that no motion is
 # executed twice. A repetition has no side effect if the instruction reads, sets a value or stops the motor. A
-# start is checked with the state and the position. An instruction that toggles a state, and a registration,
-# are checked with the status before and after the instruction. In all other cases, LostReply is raised.
+# start is checked by means of the state and the position. An instruction that toggles a state, or a
+# registration, is checked by a comparison of the status before it with the status after it. In all other
+# cases, LostReply is raised.
 
 _TOGGLES = {Code.INTERLOCK: "interlock", Code.RUN_MONITOR: "run_monitored"}
 _REGISTERED = (Code.STOP, Code.SLOW_STOP, Code.RAMP_CHANGE, Code.CHANGE)
@@ -127,7 +128,7 @@ class LostReplyResolver:
     def error_for(self, refusal: CommandRefused) -> Exception:
         """Return the exception to raise for a rejection.
 
-        If a repeated change of speed is rejected, it is unknown whether its first transmission was executed.
+        If a repeated change of speed is rejected, it is unknown whether the first transmission was executed.
         """
         if self.repeated and self._block[2] == Code.RAMP_CHANGE:
             return self._lost_reply(f"its repetition was rejected ({refusal})")
@@ -136,7 +137,7 @@ class LostReplyResolver:
     def _started(self) -> bool:
         """Return True if the motion was started.
 
-        The state, the report of its end, or the position shows this.
+        The function checks the state, then the report of the end, then the position.
         """
         station, motion = self._station, self._motion
         if motion is None or self._was_busy:
@@ -280,7 +281,7 @@ class StationLink:
         resolve: Callable[[], bool] = lambda: False,
         attempts: int = ATTEMPTS,
     ) -> Reply:
-        """Send a frame and return its reply; repeat the frame until its attempts are used up.
+        """Send a frame and return its reply; send it up to `attempts` times until the reply is valid.
 
         Args:
             data: code and data, `None` for a poll.
@@ -317,8 +318,8 @@ class StationLink:
     def read_consistently(self, read: Callable[[], T], agree: Callable[[T, T], bool] = eq) -> T:
         """Read a value until two successive reads agree, and return it.
 
-        A damaged reply may appear valid, because the seven bits of the checksum do not protect the highest
-        bit of a byte.
+        A damaged reply may seem valid: the checksum has seven bits and does not protect the highest bit of a
+        byte.
 
         Raises:
             CorruptReply: the reads do not agree.
@@ -363,7 +364,10 @@ class StationLink:
         return END_CODES.get(self.request(bytes([END_STATUS])).data[0])
 
     def stop_report(self, cause: Cause) -> Stopped:
-        """Return the end of a motion; read the position, which the report on the line does not contain."""
+        """Return the report of the end of a motion.
+
+        The driver reads the position, because the report on the line does not contain it.
+        """
         return Stopped(cause, self._station.position)
 
     def _report(self, reply: Reply) -> Report:
@@ -381,7 +385,7 @@ class StationLink:
         return report
 
     def status(self) -> Status:
-        """Read the status without changing the number of responses."""
+        """Read the status; the attribute `answers` does not change."""
         return self.read_consistently(lambda: Status.parse(self.request(bytes([Code.STATUS])).data))
 
 
@@ -401,7 +405,7 @@ _SPECIFIC = {*_REPORTS, *_FAILED, INPUTS_CHANGED, Error.CHECKSUM}
 
 
 def plausible(data: bytes | None, reply: Reply) -> bool:
-    """Return True if a station can send this reply to a poll (`None`) or an instruction.
+    """Return True if a station may send this reply to a poll (`data` is `None`) or to an instruction.
 
     >>> plausible(bytes([Code.STATUS]), Reply(1, DATA, bytes([0, 0x82, 0])))
     False

@@ -1,7 +1,8 @@
 """Serial mode of the PPMC-312: frames, and their conversion from and to bus blocks. Pure.
 
-A frame consists of control code, hexadecimal characters and checksum. The content of most instructions
-differs from the bus block only in the code, which includes the flag byte.
+A frame consists of control code, hexadecimal characters and checksum. For most instructions, the content
+differs from the block on the parallel bus only in the code: in serial mode, there is no flag byte, because
+the code contains its information.
 
 >>> line_data(blocks.acceleration(blocks.CW, 5000)).hex(" ")
 '83 00 00 00 00 13 88'
@@ -43,7 +44,11 @@ SPEEDS = (19_200, 38_400, 83_333)
 
 
 class SumMode(Enum):
-    """Bytes that the checksum covers: the control code and the data bytes, or the characters of the frame."""
+    """Sum from which the checksum is calculated.
+
+    It is the sum of the control code and the data bytes, or the sum of the characters that represent the
+    data.
+    """
 
     BINARY = "binary"
     CHARS = "chars"
@@ -165,18 +170,18 @@ _MOTIONS = {
 }
 _STOPS = {Code.STOP: 0x80, Code.SLOW_STOP: 0x81, Code.RAMP_CHANGE: 0x89, Code.CHANGE: 0x8A}
 _TRIGGERS = {0: 1, 2: 1, 1: 2, 3: 3}
-"""Bits 5:4 of a code, by the TRG field of the flag byte."""
+"""Bits 5:4 of a code for each value of the field TRG of the flag byte."""
 _ONLY_PARALLEL = {
     Code.FREE_CURVE: "free curves",
     Code.TABLE_READ: "reading the table",
     Code.EVENT_READ: "reading an event buffer",
 }
 _RESULT = {(Code.EVENT_SET, 0): b"\x00", (Code.EVENT_SET, 2): b"\x03"}
-"""Data of the response on the parallel bus to a registration and to a deletion."""
+"""Data that a response on the parallel bus to a registration or a deletion would contain."""
 
 
 def line_data(block: bytes) -> bytes:
-    """Return code and data for a block in logical order.
+    """Return code and data of the frame for a block in logical order.
 
     Raises OutOfRange if serial mode has no such instruction.
     """
@@ -210,7 +215,7 @@ def line_data(block: bytes) -> bytes:
 
 
 def _motion(code: Code, data: bytes) -> bytes:
-    """Return code and data of a start, which cannot have a trigger on the line."""
+    """Return code and data of the frame for a start; a start on the line cannot have a trigger."""
     flags, rest = data[0], data[1:]
     if flags & OV and code not in (Code.ORIGIN_SEARCH, Code.ZERO_RETURN, Code.STEP):
         raise OutOfRange("a start cannot wait for an event in serial mode: put it into an event buffer")
@@ -221,7 +226,7 @@ def _motion(code: Code, data: bytes) -> bytes:
 
 
 def _event(flags: int, embedded: bytes) -> bytes:
-    """Return code and data of a registration.
+    """Return code and data of the frame for a registration in an event buffer.
 
     The data have ten bytes for a registered instruction of any length.
     """

@@ -28,8 +28,8 @@ class Case:
 
     Attributes:
         cur: requested current in mA.
-        mstep, full: microsteps per full step (0 for full steps), and speed in full steps/s. The product of
-            both is at most 16000.
+        mstep: microsteps per full step; 0 for full steps.
+        full: speed in full steps/s. The speed in steps/s, full * max(1, mstep), is at most 16000.
         emf: amplitude of the back EMF in V; its phase is 90 degrees ahead of the reference.
         scomp: speed compensation P.
         periods: number of electrical cycles that are measured.
@@ -51,7 +51,7 @@ class Case:
 
 
 class Waves(NamedTuple):
-    """Samples of one phase: time since the first sample in s, currents in A."""
+    """Samples of one phase: time in s since the first sample, current and reference in A."""
 
     time: list[float]
     current: list[float]
@@ -62,11 +62,12 @@ class WaveMetrics(NamedTuple):
     """Results of a measurement.
 
     Attributes:
-        amplitude: amplitude of the fundamental of the reference, A.
-        error: rms of (current - fundamental of the reference), relative to the rms of this fundamental.
-        follows: rms of (current - reference), relative to the rms of the reference.
-        thd: harmonics 2..40 of the current, relative to its fundamental.
-        all: rms of the current without its fundamental, relative to its fundamental.
+        amplitude: amplitude of the fundamental of the reference in A.
+        error: rms of the current minus the fundamental of the reference, relative to the rms of this
+            fundamental.
+        follows: rms of the current minus the reference, relative to the rms of the reference.
+        thd: rms of harmonics 2..40 of the current, relative to the rms of its fundamental.
+        all: rms of the current without its fundamental, relative to the rms of its fundamental.
     """
 
     amplitude: float
@@ -98,10 +99,11 @@ class BootedMotor:
         self._go(round(165 * bit))
 
     def hold(self, angle_steps: int = 0) -> Plant:
-        """Return the plant in steady state at standstill, with full current.
+        """Return the motor in steady state at standstill, with full current.
 
         Args:
-            angle_steps: distance from the angle after a reset, in steps.
+            angle_steps: distance in steps between the angle after a reset and the angle at which the motor
+                stands.
         """
         if angle_steps:
             self.send("s", angle_steps)
@@ -111,7 +113,7 @@ class BootedMotor:
         return plant
 
     def cruise(self) -> Plant:
-        """Return the plant in steady state at constant speed."""
+        """Return the motor in steady state at constant speed."""
         speed = self.case.full * max(1, self.case.mstep)
         slow = min(3000, speed)
         for code, data in (("u", 5), ("v", speed), ("L", slow), ("S", slow), ("N", 1)):
@@ -139,7 +141,7 @@ def waves(plant: Plant, phase: str, first: int, last: int, step: float = SAMPLE_
 
 
 def cruising(case: Case) -> tuple[Waves, Waves]:
-    """Return both phases over whole electrical cycles at constant speed."""
+    """Return the samples of both phases over whole electrical cycles at constant speed."""
     booted = BootedMotor(case)
     plant = booted.cruise()
     first = booted.part.now
@@ -149,7 +151,7 @@ def cruising(case: Case) -> tuple[Waves, Waves]:
 
 
 def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Waves]:
-    """Return both phases at standstill."""
+    """Return the samples of both phases at standstill, over `us` microseconds."""
     booted = BootedMotor(case)
     plant = booted.hold(angle_steps)
     first = booted.part.now
@@ -163,7 +165,7 @@ def holding(case: Case, angle_steps: int = 0, us: int = 400) -> tuple[Waves, Wav
 
 
 def _component(samples: Sequence[float], cycles: int) -> tuple[float, float]:
-    """Return amplitude and angle of the harmonic with this number of cycles in all samples."""
+    """Return amplitude and angle of the harmonic that has `cycles` cycles over all samples."""
     turn = 2 * pi * cycles / len(samples)
     along = sum(value * sin(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
     across = sum(value * cos(turn * n) for n, value in enumerate(samples)) * 2 / len(samples)
@@ -198,9 +200,10 @@ def wave_metrics(measured: Waves, periods: int) -> WaveMetrics:
 
 
 def residual_current(measured: Waves) -> tuple[float, float]:
-    """Return the largest and smallest mean current of steps whose reference is 0, in A.
+    """Return (maximum, minimum) of the mean currents of steps whose reference is 0, in A.
 
-    The mean is calculated over the second half of each step. If there is no such step, the result is 0.
+    The mean is calculated over the second half of each step. The value 0 is always included, so the maximum
+    is at least 0, and the minimum at most 0.
     """
     means = [0.0]
     for zero, span in groupby(zip(measured.reference, measured.current, strict=True), lambda one: not one[0]):
@@ -212,5 +215,5 @@ def residual_current(measured: Waves) -> tuple[float, float]:
 
 
 def ripple(measured: Waves) -> tuple[float, float]:
-    """Return mean and peak-to-peak value of a current at standstill, A."""
+    """Return mean and peak-to-peak value of a current at standstill, in A."""
     return sum(measured.current) / len(measured.current), max(measured.current) - min(measured.current)

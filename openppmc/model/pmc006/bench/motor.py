@@ -15,13 +15,13 @@ from typing import NamedTuple, Protocol, TypeVar
 
 FULL_SCALE_A, FULL_CODE = 4.0, 255
 WINDOW_S = 20e-6
-"""Shortest time between two changes of a comparator if there is a back EMF, in s."""
+"""Shortest time in s between two changes of a comparator with a back EMF."""
 BRIDGES = {
     "a": ("bridge_a_en", "m10", "m11", "phase_a_ref", "phase_a_sign", "cmp_a"),
     "b": ("bridge_b_en", "m20", "m21", "phase_b_ref", "phase_b_sign", "cmp_b"),
 }
 QUARTER = {"a": pi / 2, "b": 0.0}
-"""Offset in rad between the angle and the argument of the sine: phase A is the cosine of the angle."""
+"""Phase angle of each sine in rad. Phase A is a cosine, phase B a sine."""
 
 
 class Part(Protocol):
@@ -89,7 +89,7 @@ class CurrentSegment:
         return current
 
     def stop_at_zero(self, positive: bool) -> None:
-        """Set the current to 0 from its zero crossing on, because the diodes block the other direction."""
+        """Set the current to 0 from its zero crossing on: the diodes block the other direction."""
         low, high = self.begin, self.begin + WINDOW_S
         while (self.at(high) > 0) == positive:
             low, high = high, high + WINDOW_S
@@ -180,7 +180,7 @@ class Winding:
 
 
 def _of(pieces: list[Piece], t: float) -> Piece:
-    """Return the segment that is valid at t."""
+    """Return the segment of `pieces` that contains t."""
     return pieces[max(0, bisect_right(pieces, t, key=lambda piece: piece.begin) - 1)]
 
 
@@ -201,7 +201,8 @@ class Plant:
         now = self.seconds(model.now)
         self.windings = {name: Winding(self.motor, name, now, tau) for name in BRIDGES}
         self._update_windings()
-        # Therefore, any caller that runs the model, for example a host, also advances the currents.
+        # `run_until` is replaced, so that any caller that runs the model, for example a host, also advances
+        # the currents.
         model.run_until = self.run_until  # type: ignore[method-assign]
 
     def seconds(self, t: int) -> float:
@@ -241,7 +242,7 @@ class Plant:
     def pieces(self, t: int) -> Iterator[tuple[int, dict[str, int]]]:
         """Yield the time up to edge t in pieces in which no comparator level changes.
 
-        A piece consists of its last edge and the comparator levels after this edge. Before the next piece,
+        A piece is yielded as its last edge and the comparator levels after this edge. Before the next piece,
         the caller runs the part to this edge and sets the levels.
         """
         model = self._model

@@ -37,9 +37,9 @@ WAVE = tuple(floor(SCALE * sin(2 * pi * unit / CYCLE) + 0.5) for unit in range(Q
 
 
 def wave(unit: int) -> int:
-    """Return the signed sine of an angle in units, -256..256.
+    """Return the sine of an angle in units, as a signed number -256..256.
 
-    The other quarters follow from the symmetry of the sine.
+    The other quarters are calculated from this table by symmetry.
     """
     unit %= CYCLE
     if unit >= CYCLE // 2:
@@ -48,7 +48,7 @@ def wave(unit: int) -> int:
 
 
 def reference(unit: int, peak: int) -> Phase:
-    """Return the reference of a phase at an angle, for a peak code of 0..255 (P006-EXC-12)."""
+    """Return the reference of a phase for an angle and a peak code of 0..255 (P006-EXC-12)."""
     height = wave(unit)
     return Phase((2 * abs(height) * peak + SCALE) // (2 * SCALE), int(height < 0))
 
@@ -69,8 +69,8 @@ def peak_code(base: int, added: int, busy: bool, decayed: bool, att: int) -> int
         base: peak code without compensation.
         added: code that the current compensation adds.
         busy: level of BUSY.
-        decayed: True if the current has decayed by 2^att.
-        att: exponent of the decay.
+        decayed: True after the idle timer has expired; at standstill, the code is then divided by 2^att.
+        att: exponent of the division.
     """
     if busy:
         return min(255, base + added)

@@ -1,9 +1,9 @@
 """Chopper of one phase of the PMC006B4 (P006-CHP-02..06).
 
-After each fixed off time, the bridge is on or in fast decay.
+After each off time, which is fixed, the bridge is on or in fast decay.
 
 The model is driven by events: timers, and changes of the comparator, the reference and the enable. In this
-module, an edge is the edge at which the half-bridge commands change.
+module, edge t of a method is the edge at which the half-bridge commands change.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Chopper:
             self._at(t + self._times.force, self._forced)
 
     def compare(self, t: int, level: int) -> None:
-        """Process a synchronised comparator level, which decisions use from edge t on."""
+        """Process a synchronised comparator level, which is used from edge t on."""
         self._cmp = level
         if self._armed and level == (self.state is State.ON):
             self._at(t, self._end_phase)
@@ -119,9 +119,10 @@ class Chopper:
             self._at(t + self._times.off, self._decide)
 
     def _decide(self, t: int) -> None:
-        """Select on or fast decay after the off time.
+        """Select the state after the off time, from the comparator level.
 
-        If the reference is 0, the current must not rise.
+        The state is FAST if the level is 1. Otherwise, it is ON, or OFF if the reference is 0, because then
+        the current must not rise.
         """
         if self._cmp:
             self._enter(t, State.FAST)

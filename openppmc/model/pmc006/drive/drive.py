@@ -1,8 +1,10 @@
 """Drive of the PMC006B4 (P006-EXC).
 
-Angle, references, idle current, bridges and bit streams of the references.
+The drive consists of the angle, the current references with their bit streams, the idle current, and the
+bridges.
 
-The model is event driven. In this module, an edge is the edge at which the register concerned changes.
+The model is event driven. In this module, edge t of a method is the edge at which the register concerned
+changes.
 """
 
 from __future__ import annotations
@@ -34,7 +36,7 @@ class Stream:
         self._since, self._sum, self._before, self._ref = t, 0, 0, 0
 
     def change(self, t: int, ref: int) -> None:
-        """Change the reference register at edge t; at this edge, the accumulator still adds the old value."""
+        """Change the reference register at edge t. At this edge, the accumulator adds the old value."""
         self._before, self._sum = self._total(t - 1), self._total(t)
         self._since, self._ref = t, ref
 
@@ -152,7 +154,7 @@ class Drive:
     # ------------------------------------------------------------------ references
 
     def _schedule_evaluation(self, t: int) -> None:
-        """Schedule the next evaluation of the references, because a value that they use changes at edge t."""
+        """Schedule the next evaluation of the references; a value that they use changes at edge t."""
         grid = self._services.core_timing.grid
         at = t + grid - (t - self._origin) % grid
         if self._evaluation_at != at:

@@ -22,7 +22,7 @@ from .processor import Processor
 
 
 class ExecutionContext:
-    """Execution context of instructions. The part sets `motion`, `program` and `eeprom` later.
+    """Execution context of instructions. The part sets `motion`, `program` and `eeprom` after the creation.
 
     Args:
         echo: True if STEP_ACK is "ECHO".
@@ -58,7 +58,7 @@ class ExecutionContext:
 
     @property
     def locked(self) -> bool:
-        """True if a start is blocked by a cause other than BUSY."""
+        """True if a cause other than BUSY prevents a start."""
         return bool(self.settings.free) or self.stop_monitor.locked or self._stopped_at == self.current_edge
 
     @property
@@ -129,7 +129,7 @@ class ExecutionContext:
         self.motion.start(t, count)
 
     def run(self, t: int) -> None:
-        """Execute instruction N = 1 at standstill (IDLE)."""
+        """Execute instruction N with data 1 at standstill (IDLE)."""
         self.stop_monitor.started()
         self.speed_on = self.running = True
         self.motion.run(t)

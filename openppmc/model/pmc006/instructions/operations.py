@@ -25,7 +25,7 @@ class KeyFilter:
             high level is accepted immediately.
         pressed: pressed(t) is called when a low level is accepted while the filter is armed.
         released: released(t) is called when a high level is accepted, which also arms the filter.
-        armed: True if the filter is armed at the beginning.
+        armed: True if the filter is armed from the beginning.
     """
 
     def __init__(
@@ -122,7 +122,8 @@ class End(Operation):
 class HostInstruction(Operation):
     """Host instruction as an instruction of the program.
 
-    The data of the host instruction are the operand, or the entry of `data` for this operand.
+    The data of the host instruction are the operand; if `data` is given, they are the entry of `data` for
+    this operand.
     """
 
     letter: str
@@ -194,7 +195,7 @@ class Out(Operation):
     """Instruction OUT."""
 
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
-        """Return the outcome, which sets one bit of GPO."""
+        """Return the outcome: one bit of GPO is written."""
         if option not in range(1, 6):
             return NOTHING
         mask = 1 << option - 1
@@ -225,7 +226,7 @@ class Key(Operation):
     def __call__(self, context: ExecutionContext, option: int, operand: int) -> Outcome:
         """Return the outcome.
 
-        RESET_EN with an illegal target is illegal, even if it switches the function off.
+        An illegal target makes RESET_EN illegal, even if the instruction switches the function off.
         """
         if option not in BOTH or (self.name == "rsten" and operand not in TARGETS):
             return NOTHING
@@ -233,21 +234,21 @@ class Key(Operation):
 
 
 def pin(context: ExecutionContext, option: int) -> int | None:
-    """Return the value of source 1..7 of WAIT and CMP: inputs and EXT flags."""
+    """Return the level of the input or EXT flag that is source 1..7 of WAIT and CMP."""
     if option in range(1, 6):
         return context.levels["gpi"] >> option - 1 & 1
     return int(context.stop_monitor.latched(f"ext{option - 5}")) if option in (6, 7) else None
 
 
 def wait_source(context: ExecutionContext, option: int) -> int | None:
-    """Return the source of WAIT, `None` for an illegal option."""
+    """Return the value of the source of WAIT, `None` for an illegal option."""
     if option == 8:
         return int(context.motion.busy)
     return int(context.stop_monitor.stall) if option == 9 else pin(context, option)
 
 
 def compare_source(context: ExecutionContext, option: int) -> int | None:
-    """Return the source of CMP, `None` for an illegal option."""
+    """Return the value of the source of CMP, `None` for an illegal option."""
     if option == 8:
         return int(context.program.counter)
     return context.levels["gpi"] if option == 9 else pin(context, option)

@@ -69,14 +69,14 @@ class Processor:
         self._executor.resume(t, restart=True)
 
     def quit(self, t: int) -> None:
-        """Execute instruction F 0."""
+        """Execute instruction F with data 0."""
         self.state, self.paused = State.HALT, False
         self.rsten = self.pauen = 0
 
     # ------------------------------------------------------------------ instructions
 
     def fetch(self, place: int) -> tuple[Operation, int, int]:
-        """Return operation, option and operand of instruction `place`."""
+        """Return (operation, option, operand) of the program instruction with number `place`."""
         return decode(self.words[2 * place], self.words[2 * place + 1])
 
     def next(self) -> Outcome:
@@ -115,7 +115,7 @@ class Processor:
         return wait_source(self._context, option) == operand & 1
 
     def end_wait(self, t: int) -> None:
-        """End WAIT, unless another event has changed the state before."""
+        """End the state WAIT, unless another event has already changed the state."""
         if self.state is State.WAIT:
             self.state = State.RUN
             self._step()
@@ -139,7 +139,10 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._hold)
 
     def _hold(self, t: int) -> None:
-        """Change to the state HELD after all other events of this edge are processed."""
+        """Change to the state HELD.
+
+        The caller schedules the call after all other events of this edge.
+        """
         if self.state is not State.HALT:
             self.pc, self.state, self.paused = self.target, State.HELD, False
 
@@ -155,7 +158,10 @@ class Processor:
             self._context.services.queue.at(t, Phase.END, self._pause)
 
     def _pause(self, t: int) -> None:
-        """Toggle PAUSED after all other events of this edge are processed."""
+        """Toggle PAUSED.
+
+        The caller schedules the call after all other events of this edge.
+        """
         if self.state in (State.RUN, State.WAIT):
             self.paused = not self.paused
             self._executor.resume(t)

@@ -64,7 +64,7 @@ class Boot:
         self._whole = True
 
     def _copy_read_sequence(self) -> BusSequence[None]:
-        """Page 0 is invalid, so read its copy into the same buffer."""
+        """Read the copy of page 0, because page 0 is invalid. The buffer is the same."""
         yield from self._engine.fetch(COPY, len(self._page), self._page.__setitem__)
         self._whole = True
 
@@ -88,7 +88,7 @@ class Boot:
             self._schedule_finish(t)
 
     def _load(self, t: int) -> None:
-        """Load the parameters; their fields have been checked."""
+        """Load the parameters, whose fields have been checked."""
         values = values_of(bytes(self._page))
         if values is None or self._restoring:
             self._schedule_finish(t)
@@ -110,7 +110,7 @@ class Boot:
         self._at(t + 1, self._finish)
 
     def _finish(self, t: int) -> None:
-        """End the sequence, or start a restore that was requested before, or read the copy of the page."""
+        """Start a pending restore, or read the copy of an invalid page; otherwise, end the sequence."""
         if self._restore_pending:
             self._restore_pending = False
             self._engine.run(t + 1, "fact", self._engine.fact(), self._schedule_finish)

@@ -19,7 +19,7 @@ from ..settings import FACTORY_PAGE, MAGIC, PAGE, PLACES, Settings
 R = TypeVar("R")
 BusSequence = Generator[None, None, R]
 LOW = Fraction(55, 100)
-"""Fraction of an SCL period for which SCL is low: slightly more than two quarters."""
+"""Low time of SCL as a fraction of its period: slightly more than two quarters."""
 
 
 class BusError(Exception):
@@ -30,7 +30,7 @@ class Bus:
     """The two lines of the bus.
 
     Attributes:
-        levels: synchronised levels of the lines.
+        levels: synchronised levels of scl and sda.
         hz: frequency of SCL.
         tick: number of the current quarter tick.
         per_ms: number of quarter ticks in a millisecond.
@@ -51,7 +51,10 @@ class Bus:
     # ------------------------------------------------------------------ time
 
     def begin(self, t: int, sequence: BusSequence[None], ended: Callable[[int], None]) -> None:
-        """Run a sequence from the first tick at or after edge t; call ended(t) at its last tick."""
+        """Run a sequence from the first tick at or after edge t.
+
+        At its last tick, `ended` is called with the edge of this tick.
+        """
         next(sequence)
         self._wait(self._ticks.first(t), sequence, ended)
 
@@ -71,7 +74,7 @@ class Bus:
     # ------------------------------------------------------------------ lines
 
     def level(self, pin: str) -> int:
-        """Return the synchronised level of a line."""
+        """Return the synchronised level of the line `pin`."""
         return self._levels[pin]
 
     def release(self) -> None:
@@ -83,12 +86,12 @@ class Bus:
         self._services.log.set(self._now, f"{line}_oe", int(not level))
 
     def _release_scl(self) -> None:
-        """Release SCL when SCL was low for the required time."""
+        """Wait until SCL was low for `LOW` of its period, then release it."""
         at = self._now + self._scl_low_cycles
         self._services.queue.at(at, Phase.PIN, lambda now: self._services.log.set(now, "scl_oe", 0))
 
     def _rise(self) -> BusSequence[None]:
-        """Wait until SCL is high; a device may hold it low for a millisecond."""
+        """Wait until SCL is high; a device may hold it low for at most a millisecond."""
         for _ in range(self.per_ms + 1):
             yield
             if self._levels["scl_i"]:
@@ -212,7 +215,7 @@ class Engine:
 
     @property
     def state(self) -> int:
-        """Data of the answer to instruction V: 1 = a job is in progress, 2 = the last job failed, else 0."""
+        """Answer to instruction V: 1 = a job is in progress, 2 = the last job failed, 0 = neither."""
         return 1 if self.busy else 2 * self.failed
 
     @property
@@ -232,7 +235,10 @@ class Engine:
         self._kind = None
 
     def begin(self, t: int, kind: str) -> None:
-        """Start job t, job B or the restore of the parameters at edge t. The engine must be idle."""
+        """At edge t, start the job of instruction t or B, or the restore of the parameters.
+
+        The engine must be idle.
+        """
         sequence = {"save": self._save, "burn": self._burn, "fact": self.fact}[kind]
         self.run(t, kind, sequence())
 
@@ -298,7 +304,7 @@ class Engine:
     # ------------------------------------------------------------------ device
 
     def _send(self, *data: int | Callable[[], int]) -> BusSequence[None]:
-        """Send bytes that must all be acknowledged."""
+        """Send bytes. The device must acknowledge each of them."""
         for byte in data:
             if not (yield from self._bus.write(byte)):
                 yield from self._bus.stop()
@@ -317,10 +323,10 @@ class Engine:
         raise BusError
 
     def _page(self, address: int, count: int, data: Callable[[], int]) -> BusSequence[None]:
-        """Write within a page, then poll until the device responds again.
+        """Write `count` bytes within one page, then poll until the device responds again.
 
         Args:
-            data: function that returns the next byte.
+            data: function that returns the next byte at each call.
         """
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
@@ -329,7 +335,7 @@ class Engine:
         yield from self.poll()
 
     def fetch(self, address: int, count: int, store: Callable[[int, int], None]) -> BusSequence[None]:
-        """Read bytes from an address on; store(place, byte) is called for each byte."""
+        """Read `count` bytes from an address on; call store(index, byte) for each of them."""
         yield from self._bus.start()
         yield from self._send(self._device << 1, address >> 8, address & 0xFF)
         yield from self._bus.start()

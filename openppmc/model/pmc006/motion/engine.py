@@ -17,18 +17,18 @@ from typing import NamedTuple
 # of 1 us. All results are exact.
 
 WHOLE = 1 << 32
-"""Value that the progress of a ramp has at its end."""
+"""Progress of a ramp at its end."""
 UPDATES_HZ = 10_000
 STEEPEST = 5
 """Largest ramp coefficient."""
 SHORT = 256
-"""Displacements below this number of steps have no S-curve (P006-MOT-23)."""
+"""Smallest displacement with an S-curve, in steps (P006-MOT-23)."""
 SPARE = 3
-"""Number of steps that remain for the stage CREEP after a fitted ramp (P006-MOT-11)."""
+"""Number of steps that `by_distance` leaves for the stage CREEP, after the ramp (P006-MOT-11)."""
 
 
 def acceleration(n: int) -> int:
-    """Return the mean acceleration of coefficient n = 0..5 in steps/s^2 (P006-MOT-02)."""
+    """Return the mean acceleration in steps/s^2 for the ramp coefficient n = 0..5 (P006-MOT-02)."""
     return 1700 << n
 
 
@@ -39,32 +39,32 @@ def up(a: int, b: int) -> int:
 
 
 def by_coefficient(change: int, n: int) -> int:
-    """Return the progress per update of a ramp over `change` >= 1 steps/s (P006-MOT-10)."""
+    """Return the progress per update of a ramp whose speeds differ by `change` >= 1 (P006-MOT-10)."""
     return min(WHOLE, WHOLE * acceleration(n) // (UPDATES_HZ * change))
 
 
 def by_distance(v: int, ve: int, steps_left: int) -> int:
-    """Return the progress per update of a ramp from v to ve (P006-MOT-11).
+    """Return the progress per update of a ramp from speed v to speed ve in a limited distance (P006-MOT-11).
 
-    The ramp ends `SPARE` steps before `steps_left`.
+    When the ramp ends, `SPARE` of the `steps_left` steps remain.
     """
     way = max(1, steps_left - SPARE)
     return min(WHOLE, up(WHOLE * (v + ve), 2 * UPDATES_HZ * way))
 
 
 def margin(v: int) -> int:
-    """Return the steps that planning adds to a distance at speed v (P006-MOT-12)."""
+    """Return the number of steps that the plan adds to a distance at speed v (P006-MOT-12)."""
     return 4 + v // 4096
 
 
 def ramp_steps(fast: int, slow: int, n: int) -> int:
-    """Return the steps of a ramp between two speeds with coefficient n, rounded up; fast >= slow."""
+    """Return the number of steps of a ramp between two speeds, fast >= slow, rounded up."""
     return up((fast + slow) * (fast - slow), 2 * acceleration(n))
 
 
 @lru_cache(maxsize=1 << 14)
 def stopping_distance(v: int, ve: int, n: int) -> int:
-    """Return the stopping distance from v to ve, v > ve (P006-MOT-15)."""
+    """Return the number of steps that a stop takes from speed v to speed ve, v > ve (P006-MOT-15)."""
     return ramp_steps(v, ve, n) + margin(v)
 
 
@@ -151,12 +151,12 @@ class MotionStart(NamedTuple):
 
 
 class LiveRegisters(NamedTuple):
-    """Registers that `advance` reads.
+    """Registers that `advance` reads; they may change during the motion.
 
     Attributes:
         target: target speed.
         straight: True if ramps to the target are straight.
-        stop: True if the speed mode was switched off.
+        stop: True after the speed mode was switched off.
     """
 
     target: int
@@ -220,9 +220,9 @@ class Engine:
         self.speed = self.next_speed
 
     def segment(self, ticks: int = UPDATE) -> Sequence[int]:
-        """Return the times of the steps in the next `ticks` us at the current speed.
+        """Return the times of the steps in the next `ticks` us, in which the speed is constant.
 
-        Each time is 1 .. ticks.
+        Each time is a number of us, 1 .. ticks.
 
         The last step of the motion sets `finished`.
         """
@@ -245,8 +245,7 @@ class Engine:
     def advance(self, live: LiveRegisters) -> None:
         """Calculate `next_speed` (docs/pmc006/README.md, 6.1 Exact arithmetic).
 
-        In each interval between updates, it must be called after the first us and before the second us is
-        processed.
+        Call it once between two updates, with the register values after the first microsecond.
         """
         if self.stage in (Stage.STOP, Stage.END) and not live.stop:
             self.stage, self._target = Stage.CRUISE, self.speed
@@ -282,7 +281,7 @@ class Engine:
             self.stage = Stage.CRUISE
 
     def _begin_final_decel(self) -> None:
-        """Begin the final deceleration of a displacement if the remaining steps require it."""
+        """Begin the final deceleration of a displacement if the number of remaining steps requires it."""
         slow, steps_left = self.request.ve, self._before
         if (
             steps_left is not None

@@ -2,9 +2,9 @@
 
 Rules: P006-MOT-04, -05, -50..-52.
 
-`engine` contains the arithmetic. In this module, an edge is the edge at which the register concerned changes;
-registers of other blocks are read with their values before the edge. Events are processed per update and per
-step.
+`engine` contains the arithmetic. The model processes one event per update and per step. In this module, edge
+t of a method is the edge at which the register concerned changes. A method reads the registers of other
+blocks with their values before this edge.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class StopMonitor:
             self._sample(t)
 
     def _sample(self, t: int) -> None:
-        """Compare the sampled back EMF with the limit at edge t; the result is evaluated one cycle later."""
+        """At edge t, compare the sampled back EMF with its limit. The result is evaluated one cycle later."""
         if self._sampled != t:
             self._sampled = t
             below = self._bemf < self._regs.stlvl
@@ -118,7 +118,10 @@ class StopMonitor:
     # ------------------------------------------------------------------ executor
 
     def clear(self, t: int, latch: str) -> None:
-        """Execute instruction b, l or p. A latch that is set in the same cycle stays set (P006-STA-14)."""
+        """Execute instruction b, l or p.
+
+        If the set condition of the latch occurs in the same cycle, it stays set (P006-STA-14).
+        """
         if self._set_at.get(latch) == t:
             return
         if latch == "stall":
@@ -150,7 +153,7 @@ def base_code(cur: int) -> int:
 def compensation(speed: int, mstep: int, cur: int, ccomp: int, scomp: int) -> tuple[int, int]:
     """Return the compensation B and the lead angle W at a speed (P006-EXC-21..23).
 
-    B is added to the peak code.
+    B is the value that is added to the peak code.
     """
     full = speed // max(1, mstep)
     return base_code(cur) * ccomp * full // (1 << 22), min(64, scomp * full // (1 << 16))
@@ -175,7 +178,7 @@ class Motion:
 
     Attributes:
         busy, forward, current_comp, lead_angle: levels after the last edge that was simulated.
-        increment: angle units per step.
+        increment: angle units that one step advances.
         at_constant_speed: True if the speed is constant (P006-STL-01).
         tick: number of the us tick at t = 0 of `engine`, `None` before the end of planning.
     """
@@ -216,7 +219,7 @@ class Motion:
         self._speed_mode = bool(on)
 
     def adc(self, t: int, data: int) -> None:
-        """Process a strobe, sampled at edge t, of the analogue value, 0..1023."""
+        """Process at edge t a strobe with the analogue value `data`, 0..1023."""
         self._adc_before, self._adc, self._adc_at = self._adc_read(t), data, t
 
     def halt(self, t: int) -> None:
@@ -278,7 +281,7 @@ class Motion:
     def _plan_steps(self, before: int, ticks: int) -> bool:
         """Schedule the steps of `ticks` us after t = `before`, and the next update.
 
-        The call returns False if the last step of the motion is in the first us.
+        The result is False if the last step of the motion is in the first of these microseconds.
         """
         engine, us, lag = self.engine, self._services.us, self._services.core_timing.step
         assert engine is not None and self.tick is not None
@@ -294,7 +297,7 @@ class Motion:
         return True
 
     def _advance(self, t: int) -> None:
-        """Calculate the values that the next update loads from the registers before edge t."""
+        """Calculate the values that the next update loads, from the register values before edge t."""
         engine, now = self.engine, self._services.settings
         assert engine is not None
         self._next_constant_speed = engine.stage is Stage.CRUISE and engine.speed > 0

@@ -1,4 +1,4 @@
-"""Conversion of text to a program, with labels, constants and comments, and back.
+"""Conversion of a text with labels, constants and comments to a program, and of a program to a text.
 
 >>> assemble("again: ROT 200 ; there\\nWAIT busy, 0\\nJMP again").words[:6]
 (1, 200, 2064, 0, 13, 0)
@@ -23,7 +23,7 @@ _CONSTANT = re.compile(rf"({_NAME})\s*=\s*(.*)$")
 
 
 class AssemblyError(PpmcError, ValueError):  # noqa: N818 - part of the API
-    """A line of the text is invalid; the message states the valid forms."""
+    """A line of the text is invalid; the message states the valid form."""
 
     def __init__(self, where: str, line: int, text: str) -> None:
         super().__init__(f"{where}:{line}: {text}")
@@ -41,7 +41,7 @@ def assemble(text: str, where: str = "program") -> Program:
 
     The text has one instruction per line, in upper or lower case; `;` and `#` begin comments. `name:` is a
     label of the next instruction; `name = value` defines a constant. The target of a jump is a label or the
-    number of an instruction. `.word W0, W1` specifies an instruction by its two words.
+    number of an instruction. `.word W0, W1` is an instruction as its two words.
 
     Args:
         where: file of the text, for messages.
@@ -60,7 +60,7 @@ class _Assembler:
         self._lines: list[_Line] = []
 
     def run(self, text: str) -> Program:
-        """Assembly of one text: all names are processed first, then the instructions."""
+        """Assemble one text: process all names first, then the instructions."""
         number = 0
         for number, line in enumerate(text.splitlines(), 1):
             self._read(number, re.split("[;#]", line, maxsplit=1)[0].strip())

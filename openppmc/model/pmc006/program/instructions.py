@@ -34,9 +34,9 @@ class Operand:
     Attributes:
         accepts: valid values.
         span: valid values as text.
-        names: value of each word that a text may contain in place of a number. If a value has several words,
-            the first word is printed.
-        target: True if the operand may be a label.
+        names: words that a text may contain in place of a number, with their values. If several words have
+            the same value, the first word is printed.
+        target: True if a text may contain a label for this operand.
         default: value if the operand is omitted; `None` if it must not be omitted.
     """
 
@@ -79,7 +79,7 @@ class Kind:
 
     @property
     def usage(self) -> str:
-        """Form of the instruction as text.
+        """Text form of the instruction, with its operands.
 
         >>> KINDS["WAIT"].usage
         'WAIT source, level'
@@ -193,7 +193,7 @@ class Instruction:
 
     @property
     def plain(self) -> bool:
-        """True if the name can represent the instruction: operands are legal, and unused fields are 0."""
+        """True if the text form can represent both words: all operands are legal, and unused fields are 0."""
         if self.kind is None or self.spare:
             return False
         used = {one.place for one in self.kind.operands}

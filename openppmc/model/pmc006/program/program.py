@@ -39,7 +39,10 @@ class Program:
 
     @classmethod
     def of(cls, instructions: Iterable[Instruction]) -> Program:
-        """Create a program, with END after the last instruction. Raises ValueError for more than 100."""
+        """Create a program, with END after the last instruction.
+
+        Raises ValueError for more than 100 instructions.
+        """
         words = [word for one in instructions for word in one.words]
         return cls((*words, *[0] * (WORDS - len(words))))
 
@@ -51,7 +54,7 @@ class Program:
 
     @property
     def used(self) -> tuple[Instruction, ...]:
-        """Instructions up to and including the END that follows the last other instruction.
+        """Instructions up to and including the END after the last instruction that is not END.
 
         The result contains at least one instruction.
         """

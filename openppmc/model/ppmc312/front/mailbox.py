@@ -37,14 +37,14 @@ class Registers(Protocol):
         """Process the end of a read strobe."""
 
     def access(self, t: int, reg: int | None, write: bool) -> None:
-        """Process the strobe that is sampled at edge t: its register, or `None` without a strobe."""
+        """Process the strobe that edge t samples; `reg` is its register, `None` if there is no strobe."""
 
 
 class Strobes:
     """Strobes of the bus.
 
     Args:
-        registers: the current registers. They are in reset up to and including edge `closed`.
+        registers: the current registers, which are in reset up to and including edge `_closed`.
     """
 
     def __init__(self, queue: Scheduler, log: EdgeLog, registers: Registers) -> None:

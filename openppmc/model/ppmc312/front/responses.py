@@ -1,6 +1,6 @@
 """Response store of the PPMC-312: eight classes of responses and reports (P312-RSP-10..22).
 
-The host side fetches one block at a time with `select`, and calls `read` when the host has read the block.
+The host side gets one block at a time from `select`, and calls `read` when the host has read this block.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ def block(header: int, *content: int | bytes) -> bytes:
 
 @dataclass
 class Report:
-    """Report or response: its blocks that the host has not read yet, in logical order.
+    """Report or response.
+
+    `blocks` contains the blocks that the host has not read yet, in logical order.
 
     Attributes:
         source: source of the instruction to which this is the response.
@@ -44,12 +46,13 @@ class Responses:
 
     Args:
         on_stored: on_stored(t) is called when a new block may be loaded.
-        was_read: was_read(t, report, block) is called when the host has read a block. report.blocks contains
-            the following blocks.
+        was_read: was_read(t, report, block) is called when the host has read a block of a report.
+            report.blocks then contains only the blocks after this one.
         response_pending: response_pending() returns True if a response is about to be stored.
 
     Attributes:
-        live_content: functions that return the block of a class when it is loaded.
+        live_content: functions by class. When a block of such a class is loaded for the host, its function
+        returns the current content.
         serial: True in serial mode: a newer report of classes 3 to 5 replaces the older one, and no report
             waits for responses (P312-SER-21).
     """
@@ -96,7 +99,7 @@ class Responses:
     def input_change(self, t: int, data: int) -> None:
         """Store report E9.
 
-        If two reports E9 are waiting already, the new data replace those of the second one.
+        If two reports E9 are waiting already, the new data replace the data of the second report.
 
         Rule: P312-RSP-21.
         """
@@ -129,7 +132,7 @@ class Responses:
         return bool(self._stores[ALARM])
 
     def take(self, t: int) -> tuple[int, bytes] | None:
-        """Return class and block of the first waiting report, and mark the block as read (serial mode)."""
+        """Return (class, block) of the first waiting report, and mark the block as read (serial mode)."""
         block = self.select()
         if block is None or self.loaded is None:
             return None

@@ -100,7 +100,8 @@ class Parser:
     def silence(self) -> Frame | None:
         """Process 20 ms without a character (P312-SER-12, -17).
 
-        If a frame of unknown length has begun, the call returns the frame that requires a response.
+        If a frame whose length is unknown has begun, return a `Frame` with the fault to which the station
+        responds.
         """
         given, self._open = self._open[1:3], b""
         if any(character not in _DIGITS for character in given):
@@ -112,7 +113,7 @@ class Parser:
     def _size(self) -> int | None:
         """Return the number of characters of the incomplete frame.
 
-        The result is 0 while the code is not complete, and `None` if the code does not define the number.
+        The result is 0 while the instruction code is not complete, and `None` if the code is unknown.
         """
         if self._open[0] & 0xF0 == POLL:
             return 2
@@ -131,7 +132,10 @@ class Parser:
 
 
 def _bytes(characters: bytes) -> bytes | None:
-    """Return the bytes of lower-case hex digits; `None` for an odd number or another character."""
+    """Return the bytes that lower-case hex digits represent.
+
+    The result is `None` if the number of characters is odd or if one of them is not such a digit.
+    """
     if len(characters) % 2 or any(character not in _DIGITS for character in characters):
         return None
     return bytes.fromhex(characters.decode())
@@ -152,7 +156,7 @@ def bit_time(mod: int, clk_hz: int, xtal_hz: int) -> Fraction | None:
 
 @unique
 class ReportCode(IntEnum):
-    """Data byte of each specific report."""
+    """Data byte of each specific report, which is a reply of the kind SPECIFIC."""
 
     INTERLOCK = 0x22
     HOLD = 0x23
@@ -205,9 +209,9 @@ ERRORS = {
     Answer.REGISTRATION: ReportCode.REGISTRATION,
 }
 _TRIGGERS = {0x00: (0x00, 0), 0x10: (OV, 4), 0x20: (OV | 1, 0), 0x30: (OV | 3, 0)}
-"""Flag byte and number of further bytes (P312-SER-40).
+"""Trigger of the codes 80, 81, 89 and 8A as (flag byte, number of trigger bytes) (P312-SER-40).
 
-A key is the value of bits 5:4 in the codes 80, 81, 89 and 8A.
+A key contains only bits 5:4 of the code; these bits select the trigger.
 """
 _AUTO = 0x02
 _REJECTED = (1, 2, 5)
@@ -218,7 +222,7 @@ They mean: trigger in use, buffer full, nothing to delete.
 
 
 class SerialInstruction(NamedTuple):
-    """Serial instruction: number of data bytes, code on the parallel bus, flag byte before the data."""
+    """Serial instruction: its number of data bytes, and its code and flag byte on the parallel bus."""
 
     n: int
     code: int
@@ -299,7 +303,7 @@ def block_of(code: int, data: bytes) -> bytes:
 
 
 def reply_of(answer: bytes) -> tuple[int, bytes]:
-    """Return kind and data of the reply to an instruction.
+    """Return (kind, data) of the reply to an instruction.
 
     Args:
         answer: response of the parallel bus, in logical order.
@@ -317,7 +321,7 @@ def reply_of(answer: bytes) -> tuple[int, bytes]:
 
 
 def poll_reply_of(kind: int, report: bytes) -> tuple[int, bytes]:
-    """Return kind and data of the reply to a poll (P312-SER-30).
+    """Return (kind, data) of the reply to a poll (P312-SER-30).
 
     Args:
         report: report of a class in logical order.

@@ -46,10 +46,10 @@ class HostSide(Protocol):
         """Return the internal levels of the pins of this side."""
 
     def notify_response(self, t: int) -> None:
-        """Process the event that the store may contain a new response."""
+        """Process the event that a store may contain a new response or report."""
 
     def done(self, t: int) -> None:
-        """Process the end of an instruction of the host, when its response is stored."""
+        """Process the end of an instruction that the host sent; its response has been stored."""
 
     def ready(self, t: int) -> None:
         """Enable the interface."""
@@ -57,7 +57,7 @@ class HostSide(Protocol):
     def answer(self, t: int, source: Source, block: bytes) -> None:
         """Send the response to an instruction.
 
-        Only the serial mode uses this method, because there no store holds responses.
+        Only the serial mode uses this method: it sends responses to instructions directly, without a store.
         """
 
 
@@ -111,8 +111,8 @@ class Core(Protocol):
 class Log(NamedTuple):
     """Logs of the line.
 
-    An entry of `replies` is (edge at which snd rises, frame), an entry of `sent` (edge in the middle of the
-    stop bit, character).
+    An entry of `replies` is (edge at which snd rises, frame). An entry of `sent` is (edge in the middle of
+    the stop bit, character).
     """
 
     replies: list[tuple[int, bytes]]
@@ -120,11 +120,11 @@ class Log(NamedTuple):
 
 
 class Driver(NamedTuple):
-    """The parameters SND_LEAD and SND_WAIT in bits (P312-SER-18).
+    """The parameters SND_LEAD and SND_WAIT, in bit times (P312-SER-18).
 
     Attributes:
-        lead: bits from the rising edge of snd to the start bit.
-        wait: delay of snd in bits, in addition to half a bit after the last character.
+        lead: SND_LEAD, from the rising edge of snd to the start bit.
+        wait: SND_WAIT. snd does not rise before half a bit time plus this delay after the last character.
     """
 
     lead: int
@@ -268,7 +268,7 @@ class Station:
             self._reply(t, *reply_of(block))
 
     def _answer(self, t: int, finished: Frame) -> tuple[int, bytes]:
-        """Return kind and data of the reply to an instruction that the station itself executes."""
+        """Return (kind, data) of the reply to an instruction that the station itself executes."""
         if finished.outcome is Outcome.POLL:
             return self._poll(t)
         if finished.outcome is Outcome.FAULT:

@@ -19,7 +19,7 @@ from ..motion.position import Counters, Interlock, WindowMonitors
 from ..stages import FreeCurve, Table
 from ..timing import CoreTiming
 
-# Members of the part that instructions use: its blocks and its state. `ppmc312.core.Core` implements them.
+# Protocol with the blocks and the state of the part that instructions use. `ppmc312.core.Core` implements it.
 
 
 class Core(Protocol):
@@ -61,7 +61,7 @@ class Core(Protocol):
         """Change to state NOR with a new table."""
 
     def drop_overrides(self, t: int) -> None:
-        """Process the failure of an override."""
+        """Discard all registered overrides after an override has failed."""
 
     def alarm(self, t: int, status: Alarm) -> None:
         """Process a multiple occurrence."""
@@ -74,7 +74,7 @@ FIFO_DEPTH, BUFFER_DEPTH = 8, 4
 
 
 class Entry(NamedTuple):
-    """Registered instruction: block in logical order, trigger, and position for a trigger by position."""
+    """Registered instruction: block in logical order, trigger, and the position of a trigger by position."""
 
     block: bytes
     trigger: Trigger
@@ -146,7 +146,7 @@ class Fifo:
         return True
 
     def count(self, t: int, position: int) -> Triggered | None:
-        """Process the arrival at this position; return the head if the position releases it."""
+        """Process the position after a pulse; return the head if this position releases it."""
         head = self.waiting[0] if self.waiting else None
         if head is None or head.trigger is not Trigger.POSITION or head.position != position:
             return None
@@ -184,7 +184,7 @@ class EventBuffer:
             self.edge = self.edge if self.entries else None
 
     def take(self) -> bytes:
-        """Return the next entry, cyclically."""
+        """Return the next entry; the first entry follows the last one."""
         block = self.entries[self.next]
         self.next = (self.next + 1) % len(self.entries)
         return block

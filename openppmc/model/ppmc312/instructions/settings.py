@@ -22,7 +22,7 @@ def _number(data: bytes) -> int:
 def initial(core: Core, data: bytes) -> Work:
     """Return the work of instruction 00.
 
-    `data` are flags and parameters, with one of the two valid lengths.
+    `data` consists of the flag byte and the parameters. Its length is one of the two valid lengths.
     """
     flags = data[0]
     separate, sigmoid = bool(flags & LE), bool(flags & FO)
@@ -52,7 +52,7 @@ def initial(core: Core, data: bytes) -> Work:
 
 
 def open_curve(core: Core, header: int, data: bytes) -> Work:
-    """Return the work of the code block of instruction 01."""
+    """Return the work of the code block of instruction 01, which opens a transfer of a free curve."""
     core.discard_table()
     try:
         transfer = FreeCurve(header, data)
@@ -67,7 +67,7 @@ def open_curve(core: Core, header: int, data: bytes) -> Work:
 
 
 def add_to_curve(core: Core, header: int, data: bytes) -> Work:
-    """Return the work of a data block of the open transfer."""
+    """Return the work of a data block that continues the transfer of a free curve."""
     transfer = core.transfer
     assert transfer is not None
     try:

@@ -236,7 +236,7 @@ def stop(core: Core, code: int, at_position: bool) -> Work:
     """Return the work of instruction 80 or 81.
 
     Args:
-        at_position: True if a position has triggered it.
+        at_position: True if a position has triggered the instruction.
     """
 
     def halt(t: int) -> None:

@@ -131,8 +131,8 @@ def _counter_clear(core: Core, t: int, data: bytes) -> bytes:
     return b""
 
 
-# Reads of pins return the levels at the edge at which the instruction is checked. An action in the next cycle
-# is executed before the levels of that cycle are updated.
+# A read of pins is executed in the cycle after its check, before the levels of that cycle are updated. Thus,
+# it returns the levels at the edge of the check.
 _PINS: dict[int, Callable[[Core], bytes]] = {
     Code.INPUT: lambda core: bytes([core.context.levels["auxi"]]),
     Code.TERMINALS: terminals,

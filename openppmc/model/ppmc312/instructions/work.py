@@ -49,7 +49,7 @@ _ECHO = 28
 
 
 def rejection_block(rejection: Rejection, source: Source, state: State, given: bytes) -> bytes:
-    """Return the response (docs/ppmc312/README.md, 6.1 Blocks).
+    """Return the response to a rejected instruction (docs/ppmc312/README.md, 6.1 Blocks).
 
     Args:
         given: code and parameters of the instruction as received.

@@ -145,7 +145,7 @@ class Motion:
     def _replace_cause(self, t: int, cause: Cause) -> None:
         """Replace the cause of an end.
 
-        The new cause is either a stop between the two phases of a zero return, or an alarm after a stop at a
+        The new cause is a stop between the two phases of a zero return, or an alarm that follows a stop at a
         position.
         """
         self._ended = cause

@@ -45,7 +45,7 @@ class Counters:
 
 @dataclass
 class Interlock:
-    """Interlock.
+    """Interlock control: intlk_n is low until the pulse position reaches `position`.
 
     Attributes:
         on: True if the interlock control is active, so that intlk_n is low.

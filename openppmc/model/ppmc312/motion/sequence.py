@@ -39,7 +39,7 @@ class Sequence:
         decel_begins: True if a requested deceleration began at the last boundary.
         change_dropped: True if the last boundary discarded a waiting instruction 87.
         was_searched: True if the constant rate at the last boundary had been that of a stage, so that a
-            search for t(x) was required.
+            search for t(x), the stage of this rate (`stages.Table.stage`), was required.
     """
 
     def __init__(self, plan: Plan) -> None:
@@ -68,7 +68,7 @@ class Sequence:
 
     @property
     def present(self) -> Step:
-        """Current pulse with its interval; before pulse 1, these are those of pulse 1."""
+        """Current pulse with its interval; before pulse 1, pulse 1 with its interval."""
         return self.running or self.plan.step(1)
 
     # ------------------------------------------------------------------ requests
@@ -118,7 +118,8 @@ class Sequence:
 
         Args:
             ramps: True if instruction 87 may take effect at this boundary.
-            found: True if the search for t(x) has ended. It has no effect if no search was required.
+            found: True if the search for t(x) has ended. The argument has no effect if no search was
+                required.
         """
         self.decel_begins = self.change_dropped = False
         if self.complete:

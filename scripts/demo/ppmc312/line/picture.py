@@ -91,7 +91,7 @@ def characters(one: Exchange) -> list[tuple[int, str]]:
 
 
 def exchange(axes: Axes, run: LineRun, comparison: Comparison, one: Exchange, letter: str) -> None:
-    """Draw the levels of the master and of the station, and their characters."""
+    """Draw the levels that the master and the station send, and their characters."""
     traces = [
         Trace("MASTER", 1, pin(run.recording.stimulus, "master"), MASTER),
         Trace("SND", 0, comparison.actual["snd"], "#7a4fa3"),

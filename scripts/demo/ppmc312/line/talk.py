@@ -88,7 +88,7 @@ class Exchange:
 
 
 def as_text(frame: bytes) -> str:
-    """Return a frame as text: 83 0a becomes `92 "0a" 6D`."""
+    """Return a frame as text, such as `92 "0a" 6D`: control code, characters, checksum."""
     if not frame:
         return ""
     middle = f' "{frame[1:-1].decode()}"' if len(frame) > 2 else ""
@@ -96,7 +96,7 @@ def as_text(frame: bytes) -> str:
 
 
 def exchanges(talk: Sequence[Sequence[int | str]]) -> list[Exchange]:
-    """Return the frames as (begin, end, "master" or "station", hexadecimal text), sorted by time."""
+    """Return the exchanges of frames given as (begin, end, "master" or "station", hex) in order of time."""
     found: list[Exchange] = []
     for begin, end, who, text in talk:
         begin, end, data = int(begin), int(end), bytes.fromhex(str(text))

@@ -24,7 +24,7 @@ from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, dig
 
 NAME = "mutate"
 GOAL, LEAST = 95.0, 70.0
-"""Required score of a folder in %: usually, and for a sample of at most SMALL mutants."""
+"""Required score of a folder in %: with more than SMALL mutants, and with SMALL or fewer."""
 SMALL = 50
 NOT_GUIDED = "run `make coverage` first to make this much faster"
 

@@ -128,7 +128,7 @@ class Finder:
                 self._walk(child)
 
     def _condition(self, predicate: Any) -> None:
-        """Add the faults of an `if`: condition always true, or never true; for a reset only never true."""
+        """Add the faults of an `if`: its condition is always or never true; for a reset, only never true."""
         text = self._of(predicate)
         if "rst" not in text:
             self._add(predicate, "1'b1", "always")

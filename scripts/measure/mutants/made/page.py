@@ -86,7 +86,7 @@ class Score:
 
     @property
     def percent(self) -> float | None:
-        """The score in %; None if no mutant counts for the score."""
+        """The score in %; None if no result is part of the score."""
         counted = self.killed + self.alive
         return 100 * self.killed / counted if counted else None
 

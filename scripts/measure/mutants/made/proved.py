@@ -1,4 +1,4 @@
-"""Quick proofs for mutants: proofs of blocks with a file, and the first that fails with a mutant."""
+"""Quick proofs for mutants: the proofs of blocks that contain a file, and the first that a mutant breaks."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSE
 
 
 def _heads(text: str) -> list[int]:
-    """Return the ends of the module headers."""
+    """Return the index in the text at which each module header ends."""
     return [span(node.header)[1] for node in found(tree(text), "ModuleDeclaration")]
 
 
@@ -25,7 +25,7 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
     places: dict[tuple[int, int, bool], list[Fault]] = {}
     for fault in faults:
         places.setdefault((fault.start, fault.end, fault.dropped), []).append(fault)
-    # Outer places precede inner places. A statement that may be removed is outside its own contents.
+    # Outer places precede inner ones; a statement that may be removed precedes the places within it.
     order = sorted(places, key=lambda place: (place[0], -place[1], not place[2]))
     heads = _heads(text)
 

@@ -1,10 +1,10 @@
 """Tests for the mutants of a file: groups of tests, each in one simulator process, the fastest first.
 
-If results of a coverage campaign are stored (`make coverage`), groups that cover the line of the mutant run.
-Their order is: groups of the block, groups that are newer than the campaign, all other groups by their time
-for each covered point of the file.
+If results of a coverage campaign are stored (`make coverage`), only groups that may cover the line of the
+mutant run. Their order is: groups of the block, groups that are newer than the campaign, all other groups by
+their time for each covered point of the file.
 
-Without such results, the groups of the folder run: tests of blocks before those of the parts that contain the
+Without such results, the groups of the folder run: tests of blocks before tests of parts that contain the
 file, directed tests before random tests.
 """
 
@@ -51,12 +51,12 @@ def _part(group: Group) -> parts.Row | None:
 
 
 def _may_reach(group: Group, file: str) -> bool:
-    """Return whether a group without stored coverage may simulate the file."""
+    """Return whether a group may simulate the file; it is used for groups without stored coverage."""
     return _part(group) is None or _rank(group, file) >= 0
 
 
 def _rank(group: Group, file: str) -> int:
-    """Return the rank of a group: blocks, directed, random; -1 for tests that do not simulate the file."""
+    """Return the rank of a group, the lowest runs first; -1 for tests that do not simulate the file."""
     folder, first = file.split("/")[1], group[0]
     if first.startswith(BLOCKS.get(folder, ())):
         return 0
@@ -99,7 +99,7 @@ class Suites:
         self.guided = len(self._new) <= len(known) // 4
 
     def of(self, file: str, line: int) -> list[Group]:
-        """Return the groups in the order of their runs. Some are joined: a start takes seconds."""
+        """Return the groups in the order of their runs; some are joined, because each start takes seconds."""
         own = Path(file).stem.partition("_")[2]
         if self.guided:
             found = [
@@ -130,7 +130,7 @@ def _weights(points: Points) -> Counter[str]:
 
 
 def _lines(points: Points) -> dict[str, set[int]]:
-    """Return the covered lines of each file, including assignments and instances without points."""
+    """Return the covered lines of each file; lines without a point, such as assignments, are included."""
     found: dict[str, set[int]] = {}
     for name, was in points.reached.items():
         file = name.split(" ", 1)[0]

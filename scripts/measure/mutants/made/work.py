@@ -81,7 +81,7 @@ def pytest(mutant: Mutant, tests: Sequence[str]) -> tuple[str, str]:
 
 
 def met(mutant: Mutant) -> tuple[str, str]:
-    """Return the result for the mutant, and the test that killed it, or `PROOF` and the name of the proof."""
+    """Return the result for the mutant, and the test (or `PROOF` and the proof) that killed it."""
     own, others = proofs_of(mutant.file)
     if name := failing(mutant.file, mutant.fault, own):
         return KILLED, PROOF + name
@@ -95,6 +95,6 @@ def met(mutant: Mutant) -> tuple[str, str]:
 
 
 def run_one(mutant: Mutant) -> Result:
-    """Try one mutant. A test that does not terminate is counted separately from a failing check."""
+    """Try one mutant. A test that does not terminate has a different result than a failing check."""
     verdict, test = met(mutant)
     return Result(verdict != BROKEN, {"verdict": verdict, "test": test, "file": digest(mutant.file)})
