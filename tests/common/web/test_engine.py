@@ -78,6 +78,7 @@ MOVES = {
     "ppmc2104": f"{BYTES.replace('0A', '02').replace('c 43', 'p 00 c 43')} idle wait 2ms",
     "stmc": f"{BYTES} idle wait 2ms",
     "ppmc312": sessions("ppmc312")[0].text.split("wait 1540ms")[0] + "wait 200ms",
+    "ppmc312-serial": sessions("ppmc312-serial")[1].text,
     "pmc006": sessions("pmc006")[0].text,
     "bank": f"axis 0 {BYTES}\naxis 3 {BYTES} idle wait 2ms",
 }
