@@ -130,6 +130,8 @@ export interface LogEntry {
   words: string;
   rule?: string;
   fields?: Decoded[];
+  /** Station of a line that sends or receives the frame. */
+  station?: number;
   bad?: boolean;
   /** The entry is a value that the text reads. */
   answer?: boolean;

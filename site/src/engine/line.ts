@@ -87,7 +87,8 @@ export class LineHost extends CharacterHost {
     this.code = found.code;
     side.from = side.core.now;
     yield* this.say(line);
-    side.note(kind, found.text, found.words, { rule: found.rule, fields: found.fields });
+    const { rule, fields, station } = found;
+    side.note(kind, found.text, found.words, { rule, fields, station });
   }
 
   private *instruction(words: string[]): Doing<string[]> {
@@ -129,11 +130,12 @@ export class LineHost extends CharacterHost {
     const { side } = this;
     side.from = side.core.now;
     const got = yield* this.reply();
-    const found = heard(side.part.words, got, this.code);
+    const found = heard(side.part.words, got, this.code, this.station);
     const told = got.length ? shown(got) : SILENCE;
     const bad = wanted !== "" && wanted !== told;
     const meaning = bad ? `${found.words} (the text expects ${wanted})` : found.words;
-    side.note(found.busy ? "!" : "<", told, meaning, { rule: found.rule, fields: found.fields, bad });
+    const { rule, fields, station } = found;
+    side.note(found.busy ? "!" : "<", told, meaning, { rule, fields, station, bad });
     return [];
   }
 
@@ -142,9 +144,10 @@ export class LineHost extends CharacterHost {
     for (;;) {
       yield* this.send(frame(POLL | this.station, []), "?");
       const got = yield* this.reply();
-      const found = heard(this.side.part.words, got, "");
-      const { rule, fields } = found;
-      this.side.note(found.busy ? "!" : "<", got.length ? form(got) : SILENCE, found.words, { rule, fields, bad: false });
+      const found = heard(this.side.part.words, got, "", this.station);
+      const { rule, fields, station } = found;
+      const more = { rule, fields, station, bad: false };
+      this.side.note(found.busy ? "!" : "<", got.length ? form(got) : SILENCE, found.words, more);
       if (!got.length) throw new TextError(`station ${this.station} does not reply; plug connects it to the line`);
       if (!found.busy) return words;
       yield* this.side.clocks(Math.round(POLL_S * this.side.part.clkHz));
@@ -196,6 +199,7 @@ interface Found {
   words: string;
   rule: string;
   fields: Decoded[];
+  station: number;
 }
 
 function kindOf(words: Words, way: string, control: number): string {
@@ -222,25 +226,26 @@ function around(line: readonly number[], kind: string, inside: Decoded[] = []): 
 export function sent({ words }: PartData, line: readonly number[]): Found & { code: string } {
   const control = line[0]!;
   const data = dataOf(line);
-  const station = `station ${control & 15}: `;
+  const station = control & 15;
   const kind = kindOf(words, ">", control);
-  const wrong = !data || checksum(control, data) !== line.at(-1);
-  if (wrong) {
-    const told = `${station}${data ? "wrong checksum" : "not a whole frame"}`;
-    return { text: spaced(line), words: told, rule: "P312-SER-14", fields: around(line, kind), code: "" };
+  if (!data || checksum(control, data) !== line.at(-1)) {
+    const told = `station ${station}: ${data ? "wrong checksum" : "not a whole frame"}`;
+    return { text: spaced(line), words: told, rule: "P312-SER-14", fields: around(line, kind), station, code: "" };
   }
   const text = spaced([control, ...data]);
   if (!data.length) {
-    return { text, words: station + kind, rule: "P312-SER-30", fields: around(line, kind), code: "" };
+    const fields = around(line, kind);
+    return { text, words: `station ${station}: ${kind}`, rule: "P312-SER-30", fields, station, code: "" };
   }
   const code = words.codes[hex(data[0]!)];
   const inside = named(code?.forms, data.slice(1));
   const title = code?.text ?? "no such instruction";
   return {
     text,
-    words: station + title + inline(inside),
+    words: `station ${station}: ${title}${inline(inside)}`,
     rule: code?.rule ?? "P312-SER-17",
     fields: around(line, kind, [["code", hex(data[0]!), title], ...inside]),
+    station,
     code: hex(data[0]!),
   };
 }
@@ -274,7 +279,7 @@ export function lineMeaning(part: PartData, verb: string, words: string[], told:
   if (!words.length) return text || "wait for a reply";
   const [kind = 0, ...data] = words[0] === SILENCE ? [] : bytes(words);
   const reply = words[0] === SILENCE ? [] : verb === "s" ? [kind, ...data] : frame(kind | station, data);
-  const answer = heard(part.words, reply, verb === "?" ? "" : code).words;
+  const answer = heard(part.words, reply, verb === "?" ? "" : code, station).words;
   return text ? `${text}: ${bare(answer)}` : verb === "s" ? answer : bare(answer);
 }
 
@@ -283,13 +288,20 @@ function bare(text: string): string {
   return text.replace(/^station \d+: /, "");
 }
 
-/** Explain a reply. code: key of the instruction before it; "" after a poll. */
-export function heard(words: Words, line: readonly number[], code: string): Omit<Found, "text"> & { busy: boolean } {
-  if (!line.length) return { words: "no station replies", rule: "P312-SER-10", fields: [], busy: false };
+/** Explain a reply to a station's instruction, or to a poll if `code` is "". */
+export function heard(
+  words: Words,
+  line: readonly number[],
+  code: string,
+  asked: number,
+): Omit<Found, "text"> & { busy: boolean } {
+  if (!line.length)
+    return { words: "no station replies", rule: "P312-SER-10", fields: [], station: asked, busy: false };
   const kind = line[0]! & 0xf0;
+  const station = line[0]! & 15;
   const data = dataOf(line) ?? [];
-  let inside: Decoded[] = [];
   const name = kind === DONE && code ? "done" : kindOf(words, "<", kind);
+  let inside: Decoded[] = [];
   let told = name;
   if (kind === DATA) {
     inside = named(code ? words.codes[code]?.answerForms : words.pollForms, data);
@@ -300,9 +312,10 @@ export function heard(words: Words, line: readonly number[], code: string): Omit
     told = title + inline(inside.slice(1));
   }
   return {
-    words: `station ${line[0]! & 15}: ${told}`,
+    words: `station ${station}: ${told}`,
     rule: code ? (words.reportRule ?? "") : "P312-SER-30",
     fields: around(line, name, inside),
+    station,
     busy: kind === BUSY,
   };
 }

@@ -128,7 +128,7 @@ export function Machine() {
   return (
     <section class={`pg-box pg-machine ${several ? "" : "pg-single"} ${line ? "pg-line-of-stations" : ""}`} aria-labelledby="pg-machine">
       <h2 id="pg-machine">
-        Motor and machine{" "}
+        Motor and machine{line && `, station ${present}`}{" "}
         <label class="pg-check">
           <input
             type="checkbox"

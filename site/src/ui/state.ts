@@ -81,6 +81,7 @@ export function select(entry: LogEntry | undefined, view: "log" | "waves" | "tex
   batch(() => {
     selectedIn.value = view;
     selected.value = entry;
+    if (entry?.station !== undefined) axis.value = entry.station;
   });
 }
 

@@ -240,6 +240,9 @@ const checks = {
         "A5 66 66 66 66 66 63 31 38 48",
       "answer",
     );
+    // An answer that the reader selects shows its station.
+    await fields("A0 00 00 05 DC");
+    equal(await position(page), 1500, "position of the station of the answer");
     // A link contains what was sent after the session.
     await page.fill("#pg-now", "axis 3; > A4 0140 00000064; < 90");
     await page.press("#pg-now", "Enter");
