@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from math import ceil
 
@@ -282,9 +283,10 @@ class LinePlayer(CharacterPlayer):
 
     @staticmethod
     def shown(reply: bytes) -> str:
-        """Return the kind and the data of a reply."""
-        data = bytes.fromhex(reply[1:-1].decode("ascii"))
-        return bytes([reply[0] & 0xF0, *data]).hex(" ") if reply else ""
+        """Return the kind and the data of a reply; only the kind if its data are not digits."""
+        text = reply[1:-1].decode("latin-1")
+        data = text if re.fullmatch("([0-9a-f]{2})*", text) else ""
+        return bytes([reply[0] & 0xF0, *bytes.fromhex(data)]).hex(" ") if reply else ""
 
     async def poll(self, words: list[str]) -> list[str]:
         """Poll the station, and compare the reply."""
