@@ -97,4 +97,24 @@ axis 5
 axis 3; idle; count 1500
 axis 5; idle; count 1000
 """,
+    "A limit switch stops a station": f"""
+axis 9
+> {TABLE}
+< 90
+> 86 0000          # run on at high speed, CW
+< 90
+pulse 900
+set fl_n[9]=0      # the limit switch of station 9
+wait 1ms
+? A0 33            # END code: limit
+> 82               # single pulse CW
+< B0 44            # rejected: the limit ahead is active
+> A2               # single pulse CCW
+< 90
+wait 2ms
+? A0 38            # END code: all pulses made
+set fl_n[9]=1
+> 42
+<                  # the position
+""",
 }

@@ -309,6 +309,11 @@ class LinePlayer(CharacterPlayer):
         since = self.marks[self.part.motors.index(motor)]
         return sum(level for _, level in self.bench.edges(motor.step, since))
 
+    async def pulse(self, words: list[str]) -> list[str]:
+        """Wait for pulses of the station, unless the statement names another one."""
+        named = len(words) > 1 and words[1].isdigit()
+        return await super().pulse(words if named else [words[0], str(self.station), *words[1:]])
+
     async def reset(self, words: list[str]) -> list[str]:
         """Reset all stations, and count the pulses from then on."""
         rest = await super().reset(words)
