@@ -56,15 +56,16 @@ class ModelBench(DutBench):
     """Bench with a golden model `settle` cycles (0 or more) after its reset.
 
     `pins` are as for `RtlBench.start`. Time begins with edge 0: the first reset itself is not visible.
+    `model` replaces the golden model of the part.
     """
 
     simulated = False
 
-    def __init__(self, part: Part, on: OnModel, settle: int = 4, **pins: int) -> None:
+    def __init__(self, part: Part, on: OnModel, settle: int = 4, model: Any = None, **pins: int) -> None:
         super().__init__(part, on.config, on.seed)
         part = self.part
         params = part.params(on.config)
-        self.model: Any = new_model(part.name, params)
+        self.model: Any = model or new_model(part.name, params)
         self.pins = {**part.inputs, "rst_n": 1}
         levels = part.reset_levels(params)
         self.initial = {name: levels[name] for name in part.watched}

@@ -63,7 +63,7 @@ def style(part: WebPart) -> dict[str, Any]:
             **LENGTHS[part.bus],
         }
     else:
-        found["bit"] = part.config.clk_hz / int(str(part.params["BAUD"]))
+        found["bit"] = part.bit or part.config.clk_hz / int(str(part.params["BAUD"]))
     return found
 
 
@@ -107,7 +107,7 @@ def data(part: WebPart, module: str) -> dict[str, Any]:
     switches = {pin for motor in part.motors for pin in motor.switches}
     return {
         "name": part.name,
-        "title": row.title,
+        "title": part.title,
         "bus": part.bus,
         "clkHz": part.config.clk_hz,
         "inputs": ports(part, list(pins.inputs), levels),
@@ -158,7 +158,8 @@ def all_parts() -> None:
             export(name)
     except SimError as error:
         raise ProjectError(str(error)) from None
-    rows = [(name, PARTS[name]) for name in WEB_PARTS]
-    known = [{"name": name, "title": row.title, "number": row.number} for name, row in rows]
+    known = [
+        {"name": name, "title": part.title, "number": PARTS[name].number} for name, part in WEB_PARTS.items()
+    ]
     text = json.dumps(known, ensure_ascii=False)
     (PLAYGROUND / "parts.js").write_text(f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8")

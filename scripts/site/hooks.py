@@ -28,6 +28,8 @@ PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
 """Addresses of pages that differ from their names, so that MkDocs does not begin with README.md."""
+LINE, LINE_PART = "docs/ppmc312/serial.md", "ppmc312-serial"
+"""Page of a part of the playground that has no manual of its own, and the name of this part."""
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")
 
 
@@ -48,6 +50,9 @@ def run_links(source: str, markdown: str) -> str:
     if source == START:
         title, _, rest = markdown.partition("\n")
         return f"{title}\n\n{button(source, PARTS[0], '2', 'Try it in the browser')}\n{rest}"
+    if source == LINE:
+        title, _, rest = markdown.partition("\n")
+        return f"{title}\n\n{button(source, LINE_PART, '2', 'Run it in the playground')}\n{rest}"
     found = PAGE.fullmatch(source)
     if not found or found[1] not in PARTS:
         return markdown

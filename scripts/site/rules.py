@@ -36,6 +36,7 @@ TABLES = {"ppmc104": ("P104", SINGLE), "ppmc2104": ("P2104", DOUBLE), "stmc": ("
 TABLES["bank"] = TABLES["ppmc104"]
 STATUS = {"ppmc104": "P104-STA-01", "ppmc2104": "P2104-STA-01", "stmc": "STMC-ST-02"}
 STATUS |= {"ppmc312": "P312-PAR-01", "pmc006": "P006-CMD-31", "bank": "P104-STA-01"}
+STATUS["ppmc312-serial"] = "P312-SER-30"
 
 
 def plain(text: str) -> str:

@@ -88,7 +88,7 @@ def sessions(part: str) -> list[Session]:
 
 def own_sessions(part: str) -> list[Session]:
     """Return the sessions that scripts/site/<part>.py defines for a part whose manual has no sessions."""
-    module = importlib.import_module(f"scripts.site.{part}")
+    module = importlib.import_module(f"scripts.site.{part.replace('-', '_')}")
     return [
         Session(str(number), f"{number} {title}", text.strip())
         for number, (title, text) in enumerate(module.SESSIONS.items(), 1)

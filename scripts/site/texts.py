@@ -15,7 +15,9 @@ from openppmc.capture.pmc006 import mnemonics as line
 from openppmc.capture.ppmc104.mnemonics import Ppmc104Decoder
 from openppmc.capture.ppmc312 import mnemonics as block
 from openppmc.model.motion.codes import Command, Kind
+from openppmc.model.ppmc312.codes import MOTION_STARTS
 from openppmc.model.ppmc312.codes import Code as Code312
+from openppmc.model.ppmc312.front import serial
 from scripts.site import rules
 
 KINDS = {
@@ -98,6 +100,46 @@ HEADERS = {
     "< 00": "data, more follow", "< 01": "data, the last", "< 0B": "answer of an event",
     "< 1B": "answer of an override", "< 23": "report",
 }  # fmt: skip
+SERIAL_REPORTS = {
+    serial.ReportCode.INTERLOCK: "interlock released",
+    serial.ReportCode.HOLD: "RUN: the held move has started",
+    serial.ReportCode.ENCODE_INSIDE: "encoder deviation: in range",
+    serial.ReportCode.ENCODE_OUTSIDE: "encoder deviation: out of range",
+    serial.ReportCode.POSITION_INSIDE: "in position",
+    serial.ReportCode.POSITION_OUTSIDE: "out of position",
+    serial.ReportCode.OVERRIDE_DONE: "override executed",
+    serial.ReportCode.EVENT_DONE: "event executed",
+    serial.ReportCode.INPUT: "general inputs have changed",
+    serial.ReportCode.CHECKSUM: "wrong checksum or character, nothing was executed",
+    serial.ReportCode.PARAMETER: "rejected: parameter",
+    serial.ReportCode.STATUS: "rejected: not in this state",
+    serial.ReportCode.LIMIT: "rejected: the limit ahead is active",
+    serial.ReportCode.ALARM: "alarm",
+    serial.ReportCode.UNKNOWN: "rejected: no such code",
+    serial.ReportCode.SIZE: "rejected: size",
+    serial.ReportCode.REGISTRATION: "rejected: not registered",
+    serial.ReportCode.EVENT_FAILED: "event failed",
+    serial.ReportCode.OVERRIDE_FAILED: "override failed",
+}
+"""Reports and errors of a station in serial mode."""
+NAMES = {
+    "END code": {"00": "not stopped yet"}
+    | {f"{code:02X}": f"stopped: {block.CAUSES[cause]}" for cause, code in serial.END_CODES.items()},
+    "error code": {"00": "no error"} | {f"{code:02X}": text for code, text in SERIAL_REPORTS.items()},
+}
+"""Names of the values of a parameter."""
+LOCAL = {
+    serial.Local.END_STATUS: ("END code of the last stop", "P312-SER-46", "END code:1"),
+    serial.Local.ERROR_CODE: ("last error code", "P312-SER-45", "error code:1"),
+    serial.Local.ERROR_COUNT: (
+        "error counts", "P312-SER-45", "framing errors:1 overruns:1 checksum errors:1"
+    ),
+}  # fmt: skip
+"""Instructions that only the serial mode has: title, rule, answer."""
+KINDS_OF_FRAMES = {
+    "> 80": "poll", "> 90": "instruction", "< 80": "busy", "< 90": "ready", "< A0": "data",
+    "< B0": "report or error",
+}  # fmt: skip
 TABLES = {END_STATUS: "end", INPUTS: "inputs", OUTPUTS: "outputs"}
 REGISTERS = {
     f"{kind} {register}": names[place]
@@ -150,6 +192,8 @@ def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
     """Return the tables of a part: codes, status, answers, meanings of the accesses of its host."""
     if part == "ppmc312":
         found = blocks()
+    elif part == "ppmc312-serial":
+        found = stations()
     elif part == "pmc006":
         found = frames()
     else:
@@ -157,6 +201,8 @@ def tables(part: str, words: CommandDecoder) -> dict[str, Any]:
     more = {"P006-CMD-48"} if part == "pmc006" else set()
     if part == "ppmc312":
         more = {f"P312-PAR-0{n}" for n in (1, 3, 4, 5, 7, 9)} | {"P312-CMD-FC-2", "P312-RSP-10"}
+    if part == "ppmc312-serial":
+        more = {f"P312-SER-{n}" for n in (10, 14, 17, 20, 30)}
     if part == "bank":
         more, found["registers"] = {"BANK-WIN-02"}, REGISTERS
     names = more | {code["rule"] for code in found["codes"].values()} | {rules.STATUS[part]}
@@ -172,21 +218,27 @@ def _forms(text: str) -> list[list[dict[str, object]]]:
     """Return alternative lists of parameters, separated by `/`: name, number of bytes, `s` for signed."""
     found = []
     for form in text.split("/"):
-        words = re.findall(r"([\w ?]+?):(\d)(s?)", form)
+        words = re.findall(r"([\w ?-]+?):(\d)(s?)", form)
         found.append([
             {"name": name.strip(), "bytes": int(size), "plus": 0}
             | ({"signed": True} if signed else {})
             | (_bits(FLAGS[name.strip()]) if name.strip() in FLAGS else {})
+            | ({"names": NAMES[name.strip()]} if name.strip() in NAMES else {})
             for name, size, signed in words
         ])  # fmt: skip
     return found
 
 
+def _titles() -> dict[str, str]:
+    """Return the title of each instruction of the PPMC-312 by its code on the parallel bus."""
+    page = (ROOT / "docs/ppmc312/instructions.md").read_text(encoding="utf-8")
+    return {**dict(TITLES.findall(page)), **{f"{code:02X}": text for code, text in block.SIMPLE.items()}}
+
+
 def blocks() -> dict[str, Any]:
     """Return the tables of the PPMC-312: instructions by code, registers, reports, refusals."""
     flags = ((0x20, "interrupts armed"), (MWEF, "no space for a block"))
-    page = (ROOT / "docs/ppmc312/instructions.md").read_text(encoding="utf-8")
-    titles = {**dict(TITLES.findall(page)), **{f"{code:02X}": text for code, text in block.SIMPLE.items()}}
+    titles = _titles()
     return {
         "codes": {
             f"{code:02X}": {
@@ -212,6 +264,52 @@ def blocks() -> dict[str, Any]:
         "reportForms": {f"{code:02X}": _forms(text) for code, text in REPORT_FORMS.items()},
         "reportRule": "P312-RSP-10",
     }  # fmt: skip
+
+
+def _serial_title(instruction: serial.SerialInstruction) -> str:
+    """Return the title of a serial instruction, whose code contains the flag byte of the bus."""
+    parallel, flags = instruction.code, int.from_bytes(instruction.flags, "big")
+    title = _titles()[f"{parallel:02X}"]
+    if parallel == Code312.EVENT_SET:
+        return f"{'delete from' if flags & 2 else 'register in'} event buffer {flags & 1}"
+    if parallel in (Code312.POSITION_READ, Code312.POSITION_SET):
+        return f"{'encoder' if flags else 'pulse'} {title}"
+    if parallel in MOTION_STARTS:
+        return f"{title}, {block.way(flags)}" + (", with index" if flags & block.IDX else "")
+    # A position is a parameter.
+    return f"{title}, {block.TRIGGERS[flags & 3]}" if flags & block.OV and flags & 1 else title
+
+
+def _serial_forms(text: str, flags: bytes, size: int) -> list[list[dict[str, object]]]:
+    """Return the lists of parameters of `size` bytes; with a flag byte on the bus, without this parameter."""
+    forms = [form[1:] if flags else form for form in _forms(text)]
+    return [form for form in forms if sum(int(str(one["bytes"])) for one in form) == size]
+
+
+def stations() -> dict[str, Any]:
+    """Return the tables of the PPMC-312 in serial mode: instructions by serial code, frames, reports."""
+    codes: dict[str, dict[str, object]] = {
+        f"{code:02X}": {
+            "text": _serial_title(one),
+            "rule": f"P312-CMD-{one.code:02X}",
+            "forms": _serial_forms(FORMS.get(Code312(one.code), ""), one.flags, one.n),
+            # A serial answer does not state which position it contains.
+            "answerForms": _forms(ANSWERS.get(Code312(one.code), "").removeprefix("encoder:1 ")),
+        }
+        for code, one in serial.SERIAL_INSTRUCTIONS.items()
+    }
+    for code, (text, rule, answer) in LOCAL.items():
+        codes[f"{code:02X}"] = {"text": text, "rule": rule, "answerForms": _forms(answer)}
+    return {
+        "codes": codes,
+        "status": [],
+        "answers": {},
+        "headers": KINDS_OF_FRAMES,
+        "reports": {f"{code:02X}": text for code, text in SERIAL_REPORTS.items()},
+        "reportForms": {f"{serial.ReportCode.INPUT:02X}": _forms(REPORT_FORMS[0xE9])},
+        "reportRule": "P312-SER-20",
+        "pollForms": _forms("END code:1"),
+    }
 
 
 def frames() -> dict[str, Any]:

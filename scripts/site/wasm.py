@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from cocotb_tests.harness.build import locked, part_design
+from cocotb_tests.harness.part import Part
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative
 from openppmc.sim.common.build import package, verilator_command, verilator_environment, verilator_version
@@ -56,8 +57,6 @@ def pins_h(part: WebPart) -> str:
     """Return pins.h of a part: its ports as words of 32 bits, and its motors."""
     pins = part.part
     inputs, outputs = words(pins, pins.inputs), words(pins, pins.watched)
-    sets = [f"        case {n}: {assigned_cpp(pins, *at, 'value')} break;" for n, at in enumerate(inputs)]
-    gets = [f"    to[{n}] = {word_cpp(pins, *at)};" for n, at in enumerate(outputs)]
     levels = {**pins.inputs, **part.idle}
     idle = ", ".join(f"{levels[pin] >> 32 * place & 0xFFFFFFFF}u" for pin, place in inputs)
     drives, switches = [], []
@@ -73,17 +72,66 @@ def pins_h(part: WebPart) -> str:
         "// SPDX-License-Identifier: Apache-2.0",
         "// Written by scripts/site/wasm.py.",
         "#pragma once",
+        '#include "part.h"',
         '#include "ports.h"',
         f"constexpr uint32_t kInputs = {len(inputs)}, kOutputs = {len(outputs)}, kAxes = {len(part.motors)};",
         f"constexpr uint32_t kIdle[kInputs] = {{{idle}}};",
         "constexpr Drive kDrives[kAxes] = {", *drives, "};",
         "constexpr Switches kSwitches[kAxes] = {", *switches, "};",
+        *(_stations(part) if part.stations else _access(pins, inputs, outputs)), "",
+    ])  # fmt: skip
+
+
+def _access(pins: Part, inputs: Sequence[tuple[str, int]], outputs: Sequence[tuple[str, int]]) -> list[str]:
+    """Return C++ that reads and writes the words of a part."""
+    sets = [f"        case {n}: {assigned_cpp(pins, *at, 'value')} break;" for n, at in enumerate(inputs)]
+    gets = [f"    to[{n}] = {word_cpp(pins, *at)};" for n, at in enumerate(outputs)]
+    return [
+        "using Top = Vpart;",
         "inline void set_input(Vpart& part, uint32_t pin, uint32_t value) {",
         "    Vpart* const top = &part;",
         "    switch (pin) {", *sets, "    }", "}",
         "inline void get_outputs(Vpart& part, uint32_t* to) {",
-        "    Vpart* const top = &part;", *gets, "}", "",
-    ])  # fmt: skip
+        "    Vpart* const top = &part;", *gets, "}",
+    ]  # fmt: skip
+
+
+def _member(top: str, name: str) -> str:
+    """Return the name that Verilator gives to a register of the top module `top`."""
+    return "__DOT__".join([top, *name.split(".")])
+
+
+def _stations(part: WebPart) -> list[str]:
+    """Return C++ that reads and writes the pins of one station of a line."""
+    line, one = part.stations, part.device
+    assert line is not None
+
+    def level(port: str, bit: int) -> str:
+        return "level" if one.width(port) == 1 else f"(part.{port} & ~{1 << bit}) | level << {bit}"
+
+    sets = [
+        f"        case {n}: part.{port} = {level(port, bit)}; break;"
+        for n, (_, port, bit) in enumerate(line.bits(one, one.inputs))
+    ]
+    gets = [
+        f"    bits |= (part.{port} >> {bit} & 1u) << {n};"
+        for n, (_, port, bit) in enumerate(line.bits(one, one.watched))
+    ]
+    states = [f"part.rootp->{_member(one.name, name)}" for name in line.states]
+    return [
+        f"constexpr uint32_t kStations = {line.count}, kPeriod = {line.period}, kBit = {part.bit:.0f};",
+        f"constexpr uint32_t kRxd = {list(part.part.inputs).index('rxd')};",
+        f"inline bool busy(Vpart& part) {{ return {' || '.join(states)}; }}",
+        "inline void set_levels(Vpart& part, uint32_t number) {",
+        f"    part.{line.number} = number;",
+        *(f"    part.{pin} = {level};" for pin, level in line.levels.items()), "}",
+        "inline void set_bit(Vpart& part, uint32_t pin, uint32_t level) {",
+        "    switch (pin) {", *sets, "    }", "}",
+        "inline uint32_t get_bits(const Vpart& part) {",
+        "    uint32_t bits = 0;", *gets, "    return bits;", "}",
+        '#include "stations.h"',
+        "using Top = Stations;",
+    ]  # fmt: skip
 
 
 def _run(command: list[str], folder: Path, log: Path) -> None:
@@ -162,7 +210,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
         bound: further sources that are linked, for tests.
     """
     part = WEB_PARTS[name]
-    design = part_design(name, part.config)
+    design = part_design(part.device.name, part.config)
     core = sorted([*CORE.glob("*.cpp"), *CORE.glob("*.h")])
     board = [BOARD / file for file in ("plant.h", "plant.cpp", "steps.h")]
     headers = [path for folder in design.includes for path in sorted((ROOT / folder).glob("*.svh"))]

@@ -12,6 +12,9 @@ from cocotb_tests.bank.bench import B8
 from cocotb_tests.harness.config import F16, Config
 from cocotb_tests.harness.part import PARTS, Part
 from cocotb_tests.pmc006.builds import F8B
+from cocotb_tests.ppmc312.line.setting import BIT, F8L, FASTEST, STATIONS
+from openppmc import parts
+from scripts.site.stations import Stations
 
 
 @dataclass(frozen=True)
@@ -52,6 +55,9 @@ class WebPart:
         phase_on: level of the pin of an energised winding.
         settle: cycles from the reset to the first access.
         first: number that the first axis has in statements.
+        stations: stations of a line; each station is one of the motors.
+        name_shown: title of the part in the page, if not the one of the table of parts.
+        bit: duration of a bit on a line in cycles, if no parameter BAUD defines it.
     """
 
     name: str
@@ -66,17 +72,30 @@ class WebPart:
     first: int = 1
     config: Config = F16
     idle: Mapping[str, int] = field(default_factory=dict)
+    stations: Stations | None = None
+    bit: float = 0
+    name_shown: str = ""
+
+    @property
+    def title(self) -> str:
+        """Title of the part in the page."""
+        return self.name_shown or parts.PARTS[self.name].title
+
+    @property
+    def device(self) -> Part:
+        """The pins of the top module with the parameters of this build."""
+        part = PARTS[parts.PARTS[self.name].folder if self.stations else self.name]
+        return part.built(part.params(self.config))
 
     @property
     def part(self) -> Part:
-        """The pins of the part with the parameters of this build."""
-        part = PARTS[self.name]
-        return part.built(part.params(self.config))
+        """The pins of the module: those of the part, or those of all stations."""
+        return self.stations.pins(self.device) if self.stations else self.device
 
     @property
     def params(self) -> dict[str, object]:
         """The parameters of its top module."""
-        return dict(PARTS[self.name].params(self.config))
+        return dict(self.device.params(self.config))
 
 
 def _phases(port: str) -> tuple[str, ...]:
@@ -97,6 +116,20 @@ def _bank_axis(n: int) -> Motor:
     return Motor(f"pout_n[{n}]", switches, f"dir[{n}]", windings=tuple(f"s[{5 * n + k}]" for k in range(5)))
 
 
+def _station(n: int) -> Motor:
+    switches = tuple(f"{pin}[{n}]" for pin in ("fl_n", "bl_n", "fhl_n", "bhl_n", "org_n", "alm_n"))
+    return Motor(f"pout[{n}]", switches, f"dir[{n}]", edge=1, encoder=(f"epin[{n}]", f"epdir[{n}]"))
+
+
+LINE = Stations(
+    STATIONS,
+    "adr",
+    # The serial mode at 83 333 baud. The pins of the parallel bus and the unused clock are inactive.
+    {"mode": 0, "mod": FASTEST, "hsp": 1} | {"d_i": 0, "rs": 0, "cs_n": 1, "we_n": 1, "oe_n": 1, "extck": 0},
+    ("d_o", "d_oe", "wrq_n", "irq_n"),
+    states=("u_serial.u_rx_frame.state_q", "u_core.u_axis.u_motion.state_q"),
+    period=1600,  # multiple of 64 and of 50 us
+)
 WEB_PARTS: dict[str, WebPart] = {
     part.name: part
     for part in (
@@ -140,6 +173,19 @@ WEB_PARTS: dict[str, WebPart] = {
             straps=("run", "evt0_n", "evt1_n", "end_n", "index_n"),
             hint="> 03 04 86 00 01F4",
             bits=("0", "EWRQ", "EWIRQ", "ERIRQ", "MWEF", "MREF", "0", "0"),
+        ),
+        WebPart(
+            "ppmc312-serial",
+            "line",
+            tuple(_station(n) for n in range(STATIONS)),
+            straps=("run", "evt0_n", "evt1_n", "end_n", "index_n"),
+            hint="axis 3; > 84 01F4 00000064",
+            config=F8L,
+            bit=BIT,
+            settle=24,
+            first=0,
+            stations=LINE,
+            name_shown="PPMC-312 line",
         ),
         WebPart(
             "pmc006",

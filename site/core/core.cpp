@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Vpart.h"
-#include "Vpart___024root.h"
+#include "part.h"
 #include "pins.h"
 #include "plant.h"
 #include "steps.h"
@@ -45,7 +44,7 @@ struct Motor {
 };
 
 VerilatedContext* context;
-Vpart* top;
+Top* top;
 Row rows[kRows];
 uint32_t count;
 Later queue[kQueue];
@@ -117,23 +116,6 @@ void follow(uint32_t pin, uint32_t before) {
     }
 }
 
-void edge() {
-    top->clk = 1;
-    top->eval();
-}
-
-// No block uses the falling edge. If Verilator has this variable, it is set as if clk had been low; then the falling
-// edge need not be simulated (tb/board/dut.h).
-template <class Root>
-auto rearm(Root& root, int) -> decltype(root.__Vtrigprevexpr___TOP__clk__0, void()) {
-    root.__Vtrigprevexpr___TOP__clk__0 = 0;
-}
-template <class Root>
-void rearm(Root&, long) {
-    top->clk = 0;
-    top->eval();
-}
-
 // Read the outputs, and record and follow each change.
 void look() {
     uint32_t is[kOutputs];
@@ -168,7 +150,7 @@ EXPORT(power_up) void power_up() {
     delete top;
     delete context;
     context = new VerilatedContext;
-    top = new Vpart{context};
+    top = new Top{context};
     count = queue_at = queue_end = 0;
     now = -static_cast<int64_t>(kResetClk);
     for (uint32_t n = 0; n < kInputs; ++n) {
@@ -176,16 +158,14 @@ EXPORT(power_up) void power_up() {
         user[n] = applied[n] = kIdle[n];
         set_input(*top, n, kIdle[n]);
     }
-    top->clk = 0;
-    top->rst_n = (1);
-    top->eval();
-    top->rst_n = (0);
+    power_on(*top);
+    set_reset(*top, false);
     for (; now < 0; ++now) {
-        edge();
-        rearm(*top->rootp, 0);
+        rise(*top);
+        rearm(*top);
     }
     get_outputs(*top, level);
-    top->rst_n = (1);
+    set_reset(*top, true);
     for (Motor& motor : motors) motor.phases = PhaseSteps{};
     moved = 0;
     for (Wave& one : waves) one = {};
@@ -223,9 +203,9 @@ EXPORT(steps) uint32_t steps(uint32_t axis) { return moved_by[axis]; }
 // Set a level from the next edge on.
 EXPORT(put) void put(uint32_t pin, uint32_t value) {
     if (pin == kInputs) {
-        top->rst_n = (value);
+        set_reset(*top, value);
         note(kInput + pin, value);
-        top->eval();
+        settle(*top);
         return;
     }
     user[pin] = value;
@@ -286,10 +266,10 @@ EXPORT(run) double run(double n, uint32_t until) {
                 if (one.next < wave_next) wave_next = one.next;
             }
         }
-        edge();
+        rise(*top);
         const uint32_t rows_before = count;
         look();
-        rearm(*top->rootp, 0);
+        rearm(*top);
         ++now;
         if ((until & 1) && moved != before) break;
         if ((until & 2) && count != rows_before) break;

@@ -20,6 +20,8 @@ export interface Field {
   signed?: boolean;
   bits?: string[];
   none?: string;
+  /** Or with the name of the value, by the value in hexadecimal digits. */
+  names?: Record<string, string>;
 }
 
 export interface Code {
@@ -56,6 +58,8 @@ export interface Words {
   headers?: Record<string, string>;
   reportForms?: Record<string, Field[][]>;
   reportRule?: string;
+  /** For a line: data of the reply to a poll. */
+  pollForms?: Field[][];
 }
 
 export interface Session {
@@ -126,6 +130,8 @@ export interface LogEntry {
   words: string;
   rule?: string;
   fields?: Decoded[];
+  /** Station of a line that sends or receives the frame. */
+  station?: number;
   bad?: boolean;
   /** The entry is a value that the text reads. */
   answer?: boolean;

@@ -16,6 +16,7 @@ const MWEF = 0x08;
 const MREF = 0x04;
 const WRITE_RULES: Record<number, string> = { 0: "P312-PAR-01", 2: "P312-PAR-03", 3: "P312-PAR-04", 5: "P312-PAR-05" };
 const LONGEST = 32; // bytes of a block
+const REST = "parameters";
 
 export class BlockHost extends Host {
   private readonly bus: Strobes;
@@ -129,14 +130,27 @@ export class BlockHost extends Host {
   }
 }
 
-function spaced(content: readonly number[]): string {
+export function spaced(content: readonly number[]): string {
   return content.map((one) => hex(one)).join(" ");
 }
 
-function value({ signed, bits, none }: Field, content: readonly number[]): string {
+function value({ signed, bits, none, names }: Field, content: readonly number[]): string {
+  if (names) return names[hex(content[0]!)] ?? hex(content[0]!);
   if (bits) return bits.filter((name, n) => name && (content[0]! >> (7 - n)) & 1).join(", ") || (none ?? "0");
   const number = content.reduce((sum, one) => 256 * sum + one, 0);
   return String(signed && content[0]! & 0x80 ? number - 2 ** (8 * content.length) : number);
+}
+
+/** Return parameters as fields; their number of bytes selects one of the lists. rest: name of the other bytes. */
+export function named(forms: Field[][] | undefined, content: readonly number[], rest = REST): Decoded[] {
+  const fields: Decoded[] = [];
+  const size = (form: Field[]): number => form.reduce((sum, field) => sum + field.bytes, 0);
+  let left = content;
+  for (const field of forms?.find((form) => size(form) === left.length) ?? []) {
+    fields.push([field.name, spaced(left.slice(0, field.bytes)), value(field, left.slice(0, field.bytes))]);
+    left = left.slice(field.bytes);
+  }
+  return left.length ? [...fields, [rest, spaced(left), ""]] : fields;
 }
 
 /** Return the rule of a block, and its fields: header, length, code and parameters. */
@@ -150,14 +164,9 @@ export function decoded(words: Words, content: readonly number[], answer: boolea
   const list = head < 2 || first === undefined;
   const report = answer ? words.reports?.[hex(first ?? 0)] : undefined;
   if (!list) fields.push(["code", hex(first), report ?? code?.text ?? "no such instruction"]);
-  let left = content.slice(list ? 2 : 3);
   const forms = report ? words.reportForms?.[hex(first ?? 0)] : answer ? code?.answerForms : code?.forms;
-  const size = (form: Field[]): number => form.reduce((sum, field) => sum + field.bytes, 0);
-  for (const field of (!list && forms?.find((form) => size(form) === left.length)) || []) {
-    fields.push([field.name, spaced(left.slice(0, field.bytes)), value(field, left.slice(0, field.bytes))]);
-    left = left.slice(field.bytes);
-  }
-  if (left.length) fields.push([list ? "data" : "parameters", spaced(left), ""]);
+  if (list) fields.push(...named(undefined, content.slice(2), "data"));
+  else fields.push(...named(forms, content.slice(3)));
   return { fields, rule: (report ? words.reportRule : list ? "P312-CMD-FC-2" : code?.rule) ?? "P312-CMD-01" };
 }
 
@@ -171,8 +180,13 @@ export function bytes(words: readonly string[]): number[] {
 
 /** Return the parameters of a block in one line. */
 function parameters(words: Words, content: readonly number[], answer: boolean): string {
-  const known = decoded(words, content, answer).fields!.slice(3).filter(([name]) => name !== "parameters");
-  const told = known.map(([name, , meaning]) => (/flags|profile/.test(name) ? meaning : `${name} ${meaning}`));
+  return inline(decoded(words, content, answer).fields!.slice(3));
+}
+
+/** Return fields in one line, which follows a title. */
+export function inline(fields: readonly Decoded[]): string {
+  const known = fields.filter(([name]) => name !== REST);
+  const told = known.map(([name, , meaning]) => (/flags|profile|code$/.test(name) ? meaning : `${name} ${meaning}`));
   return told.length ? `: ${told.join(", ")}` : "";
 }
 

@@ -1,7 +1,7 @@
 // Host of the PMC006B4: sends frames on the serial line and receives the replies.
 
-import { CHANGE } from "./core";
-import { Host, PATIENCE } from "./host";
+import { CharacterHost } from "./characters";
+import { PATIENCE } from "./host";
 import { hex, type Doing, type Side } from "./side";
 import { TextError } from "./text";
 
@@ -9,51 +9,13 @@ const ADDRESS = 0xff;
 const HEAD = 0xa5;
 const REPLY = 0x7a;
 
-export class FrameHost extends Host {
-  private readonly bit: number;
-
+export class FrameHost extends CharacterHost {
   constructor(side: Side) {
     super(side);
-    this.bit = Number(side.part.style.bit);
     Object.assign(this.verbs, {
       f: (words: string[]) => this.frame(words),
       idle: (words: string[]) => this.idle(words),
     });
-  }
-
-  private *reach(clk: number): Doing {
-    yield* this.side.clocks(clk - this.side.core.now);
-  }
-
-  /** Send characters back to back; end when the line is free again. */
-  private *say(line: readonly number[]): Doing {
-    let free = this.side.core.now;
-    for (const one of line) {
-      const start = free;
-      for (let place = 0; place < 10; place++) {
-        const level = place === 0 ? 0 : place === 9 ? 1 : (one >> (place - 1)) & 1;
-        if (Number(this.side.levels.get("rxd")) === level) continue;
-        yield* this.reach(up(start + place * this.bit));
-        this.side.set("rxd", level);
-      }
-      free = up(start + 10 * this.bit);
-    }
-    yield* this.reach(free);
-  }
-
-  private *hear(): Doing<number> {
-    const end = this.side.core.now + PATIENCE / 100;
-    while (this.side.level("txd")) {
-      if (this.side.core.now > end) throw new TextError("no reply before the time limit");
-      yield { clk: PATIENCE / 100, until: CHANGE };
-    }
-    const start = this.side.core.now;
-    let value = 0;
-    for (let place = 1; place < 10; place++) {
-      yield* this.reach(start + up((place + 0.5) * this.bit));
-      value |= this.side.level("txd") << (place - 1);
-    }
-    return value & 0xff;
   }
 
   private *ask(letter: string, data: number): Doing<number> {
@@ -84,7 +46,11 @@ export class FrameHost extends Host {
     });
     side.from = side.core.now;
     const got: number[] = [];
-    for (let n = 0; n < 8; n++) got.push(yield* this.hear());
+    for (let n = 0; n < 8; n++) {
+      const byte = yield* this.hear(PATIENCE / 100);
+      if (byte === undefined) throw new TextError("no reply before the time limit");
+      got.push(byte);
+    }
     if (got[0] !== HEAD || got[1] !== REPLY || sum(got.slice(0, 7)) !== got[7])
       throw new TextError(`${got.map((one) => hex(one)).join(" ")}: not a valid reply`);
     const value = got.slice(3, 7).reduceRight((whole, one) => (whole << 8) | one, 0);
@@ -125,11 +91,6 @@ export class FrameHost extends Host {
     while ((yield* this.ask("j", 0)) & 1) yield* this.side.clocks(Math.floor(this.side.part.clkHz / 1000));
     return words;
   }
-}
-
-/** Round up to whole cycles; a sum of bit times that is a whole number except for rounding is not changed. */
-function up(clk: number): number {
-  return Math.ceil(clk - 1e-6);
 }
 
 function sum(bytes: readonly number[]): number {

@@ -4,6 +4,7 @@ import { BlockHost } from "./blocks";
 import { ByteHost } from "./bytes";
 import { FrameHost } from "./frames";
 import type { Host } from "./host";
+import { LineHost } from "./line";
 import type { Side } from "./side";
 import { TextError } from "./text";
 import { WindowHost } from "./window";
@@ -13,6 +14,7 @@ const KINDS: Record<string, new (side: Side) => Host> = {
   window: WindowHost,
   block: BlockHost,
   frame: FrameHost,
+  line: LineHost,
 };
 
 export function makeHost(side: Side): Host {

@@ -3,6 +3,7 @@
 import type { PartData } from "../types";
 import { answerWords, blockWords, bytes } from "./blocks";
 import { Explainer, type Meant } from "./explain";
+import { lineMeaning, type Told } from "./line";
 import { isByte, TextError } from "./text";
 
 function blockLine(part: PartData, text: string): Meant[] {
@@ -40,6 +41,21 @@ function blockLine(part: PartData, text: string): Meant[] {
   return found;
 }
 
+function stationLine(part: PartData, text: string, told: Told): Meant[] {
+  const found: Meant[] = [];
+  for (const one of (text.split("#")[0] ?? "").split(";")) {
+    const [verb = "", ...words] = one.split(/\s+/).filter(Boolean);
+    try {
+      const meaning = lineMeaning(part, verb, words, told);
+      if (meaning) found.push({ word: one.trim(), meaning, bad: false });
+    } catch (error) {
+      if (!(error instanceof TextError)) throw error;
+      found.push({ word: one.trim(), meaning: error.message, bad: true });
+    }
+  }
+  return found;
+}
+
 function frameLine(part: PartData, text: string): Meant[] {
   const found: Meant[] = [];
   for (const one of (text.split("#")[0] ?? "").split(";")) {
@@ -58,9 +74,11 @@ function frameLine(part: PartData, text: string): Meant[] {
 /** Explain each line of a text; the meaning of a line can depend on the lines before it. */
 export function meanings(part: PartData, text: string): Meant[][] {
   const explainer = new Explainer(part.words);
-  return text
-    .split("\n")
-    .map((line) =>
-      part.bus === "block" ? blockLine(part, line) : part.bus === "frame" ? frameLine(part, line) : explainer.line(line),
-    );
+  const told: Told = { station: 1, code: "" };
+  const byBus: Record<string, (line: string) => Meant[]> = {
+    block: (line) => blockLine(part, line),
+    frame: (line) => frameLine(part, line),
+    line: (line) => stationLine(part, line, told),
+  };
+  return text.split("\n").map(byBus[part.bus] ?? ((line) => explainer.line(line)));
 }

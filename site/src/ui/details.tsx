@@ -7,6 +7,7 @@ import { log, part, selected, status } from "./state";
 function Status({ value }: { value: number }) {
   const { style, words } = part.value!;
   const bits = (style.bits as string[] | undefined) ?? [];
+  if (!bits.length) return null;
   return (
     <>
       <p>

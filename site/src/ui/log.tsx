@@ -1,7 +1,7 @@
 // Log of the bus: all accesses with time and meaning. The reader selects one with the pointer or the arrow keys.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { log, part, select, selected, shows } from "./state";
+import { isLine, log, part, select, selected, shows } from "./state";
 
 const NAMES: Record<string, string> = {
   c: "command",
@@ -11,18 +11,22 @@ const NAMES: Record<string, string> = {
   ">": "block",
   "<": "answer",
   f: "frame",
+  "?": "poll",
+  "!": "answer",
   w: "write",
   put: "write",
   get: "read",
 };
 const SHOWN = 300;
+/** Entries without news: reads of the status, polls, and replies of busy stations. */
+const POLLS = new Set(["st", "?", "!"]);
 
 export function BusLog() {
   const list = useRef<HTMLDivElement>(null);
   const [only, setOnly] = useState(false);
   const clk = part.value?.clkHz ?? 1;
   const chosen = selected.value;
-  const all = only ? log.value.filter((row) => row.kind !== "st" || row === chosen) : log.value;
+  const all = only ? log.value.filter((row) => !POLLS.has(row.kind) || row === chosen) : log.value;
   const at = chosen ? all.indexOf(chosen) : -1;
   const end = at < 0 ? all.length : Math.min(all.length, at + SHOWN / 2);
   const rows = all.slice(Math.max(0, end - SHOWN), end);
@@ -48,10 +52,10 @@ export function BusLog() {
   return (
     <>
       <h2 id="pg-log">
-        Bus{" "}
+        {isLine() ? "Line" : "Bus"}{" "}
         <label class="pg-check">
           <input type="checkbox" checked={only} onChange={(event) => setOnly(event.currentTarget.checked)} />{" "}
-          without status reads
+          {isLine() ? "without polls" : "without status reads"}
         </label>
       </h2>
       <div
@@ -75,7 +79,7 @@ export function BusLog() {
           <tbody>
             {rows.map((row) => (
               <tr
-                class={row.bad ? "pg-bad" : row.kind === "st" ? "pg-st" : ""}
+                class={row.bad ? "pg-bad" : POLLS.has(row.kind) ? "pg-st" : ""}
                 aria-current={row === chosen ? "true" : undefined}
                 onClick={() => select(row === chosen ? undefined : row, "log")}
               >

@@ -2,7 +2,7 @@
 
 import { useState } from "preact/hooks";
 import { Motor } from "./motor";
-import { ask, frames, inputs, machineOn, outputs, part, places, positions, remember, store } from "./state";
+import { ask, axis as chosen, frames, isLine, inputs, machineOn, outputs, part, places, positions, remember, store } from "./state";
 import { level } from "./store";
 
 const NAMES = ["start", "CCW limit", "slow CCW", "origin", "slow CW", "CW limit"];
@@ -54,7 +54,7 @@ function Rail({ axis }: { axis: number }) {
     <svg
       class="pg-rail"
       role="img"
-      aria-label={`carriage of axis ${axis + Number(part.value!.style.first)} at ${position}`}
+      aria-label={`carriage of ${isLine() ? "station" : "axis"} ${axis + Number(part.value!.style.first)} at ${position}`}
     >
       <line x1="1%" y1="38" x2="99%" y2="38" class="pg-bed" />
       {marks.map(([place, name, kind], n) => (
@@ -69,7 +69,7 @@ function Rail({ axis }: { axis: number }) {
       <text x={x(position)} y="16" class="pg-position">
         {position}
       </text>
-      {part.value!.motors.length > 1 && (
+      {part.value!.motors.length > 1 && !isLine() && (
         <text x="1%" y="59" class="pg-name">
           axis {axis + Number(part.value!.style.first)}
         </text>
@@ -83,6 +83,19 @@ function high(pin: string): number {
   if (!row) return 1;
   const idle = part.value!.inputs.flatMap((port) => port.idle); // shown until the part reports its levels
   return level(row, inputs.value.length ? inputs.value : idle);
+}
+
+/** A button for each station, with its position. */
+function Stations() {
+  return (
+    <div class="pg-stations" role="group" aria-label="stations on the line">
+      {part.value!.motors.map((_, n) => (
+        <button type="button" aria-pressed={n === chosen.value} onClick={() => (chosen.value = n)}>
+          <b>{n}</b> <small>{positions.value[n] ?? 0}</small>
+        </button>
+      ))}
+    </div>
+  );
 }
 
 function Pin({ pin, name = "" }: { pin: string; name?: string }) {
@@ -101,21 +114,21 @@ function Pin({ pin, name = "" }: { pin: string; name?: string }) {
 
 export function Machine() {
   void frames.value;
-  const [axis, setAxis] = useState(0);
   const [open, setOpen] = useState(false);
   const data = part.value;
   if (!data) return <section class="pg-box pg-machine" />;
-  const several = data.motors.length > 1;
-  const present = Math.min(axis, data.motors.length - 1);
+  const line = isLine();
+  const several = data.motors.length > 1 && !line;
+  const present = Math.min(chosen.value, data.motors.length - 1);
   const switches = data.motors[present]!.switches;
   const change = (on: boolean): void => {
     machineOn.value = on;
     ask({ kind: "machine", words: on ? ["machine", "on", ...places.value.map(String)] : ["machine", "off"] });
   };
   return (
-    <section class={`pg-box pg-machine ${several ? "" : "pg-single"}`} aria-labelledby="pg-machine">
+    <section class={`pg-box pg-machine ${several ? "" : "pg-single"} ${line ? "pg-line-of-stations" : ""}`} aria-labelledby="pg-machine">
       <h2 id="pg-machine">
-        Motor and machine{" "}
+        Motor and machine{line && `, station ${present}`}{" "}
         <label class="pg-check">
           <input
             type="checkbox"
@@ -125,19 +138,23 @@ export function Machine() {
           the carriage operates the switches
         </label>
       </h2>
-      <div class={`pg-axes pg-axes-${data.motors.length}`}>
-        {data.motors.map((_, n) => (
-          <div class="pg-axis">
-            <AxisMotor axis={n} />
-            <Rail axis={n} />
-          </div>
-        ))}
+      {line && <Stations />}
+      <div class={`pg-axes pg-axes-${line ? 1 : data.motors.length}`}>
+        {data.motors.map(
+          (_, n) =>
+            (!line || n === present) && (
+              <div class="pg-axis">
+                <AxisMotor axis={n} />
+                <Rail axis={n} />
+              </div>
+            ),
+        )}
       </div>
       <div class="pg-pins" role="group" aria-label="switches, alarms and straps">
         {several && (
           <label>
             Axis{" "}
-            <select value={present} onChange={(event) => setAxis(Number(event.currentTarget.value))}>
+            <select value={present} onChange={(event) => (chosen.value = Number(event.currentTarget.value))}>
               {data.motors.map((_, n) => (
                 <option value={n}>{n + Number(data.style.first)}</option>
               ))}
@@ -146,7 +163,7 @@ export function Machine() {
         )}
         {SWITCHES.map(([n, name]) => switches[n] && <Pin pin={switches[n]!} name={name} />)}
         {data.straps.map((pin) => (
-          <Pin pin={pin} />
+          <Pin pin={line ? `${pin}[${present}]` : pin} />
         ))}
         <button type="button" class="pg-more" aria-expanded={open} onClick={() => setOpen(!open)}>
           {open ? "▾" : "▸"} positions of the switches

@@ -4,7 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { columns } from "../engine/speeds";
 import { paced } from "./paced";
-import { frames, part, store } from "./state";
+import { axis, frames, isLine, part, store } from "./state";
 
 const INKS = ["one", "two", "three", "four", "five", "six", "seven", "eight"].map((name) => `--pg-${name}`);
 
@@ -15,6 +15,8 @@ function ink(element: Element, name: string): string {
 export function Speed() {
   const box = useRef<HTMLDivElement>(null);
   const name = part.value?.name;
+  const line = isLine();
+  const station = axis.value;
   useEffect(() => {
     const element = box.current;
     if (!element || !part.value) return;
@@ -55,8 +57,8 @@ export function Speed() {
           series: [
             {},
             ...Array.from({ length: axes }, (_, n) => ({
-              stroke: ink(element, INKS[n % INKS.length]!),
-              width: 1.5,
+              stroke: ink(element, line ? (n === station ? INKS[0]! : "--pg-pale") : INKS[n % INKS.length]!),
+              width: line && n === station ? 2 : 1.5,
               points: { show: false },
               spanGaps: true,
               paths: uPlot.paths.stepped!({ align: 1 }),
@@ -87,14 +89,24 @@ export function Speed() {
       soon.stop();
       plot?.destroy();
     };
-  }, [name]);
+  }, [name, line && station]);
   const first = Number(part.value?.style.first ?? 0);
   const axes = part.value?.motors ?? [];
   return (
     <section class="pg-box pg-rate" aria-labelledby="pg-speed">
       <h2 id="pg-speed">
         Speed, pulses per second
-        {axes.length > 1 && (
+        {line && (
+          <span class="pg-legend">
+            <span>
+              <i style={{ background: `var(${INKS[0]})` }} /> station {station}
+            </span>
+            <span>
+              <i style={{ background: "var(--pg-pale)" }} /> others
+            </span>
+          </span>
+        )}
+        {axes.length > 1 && !line && (
           <span class="pg-legend">
             {axes.map((_, n) => (
               <span>

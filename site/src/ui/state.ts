@@ -37,6 +37,8 @@ export const why = signal("");
 export const mclk = signal(0);
 export const line = signal(0);
 export const status = signal(-1);
+/** Axis, or station of a line, that the reader has selected. */
+export const axis = signal(0);
 export const positions = signal<number[]>([]);
 export const inputs = signal<number[]>([]);
 export const outputs = signal<number[]>([]);
@@ -79,6 +81,7 @@ export function select(entry: LogEntry | undefined, view: "log" | "waves" | "tex
   batch(() => {
     selectedIn.value = view;
     selected.value = entry;
+    if (entry?.station !== undefined) axis.value = entry.station;
   });
 }
 
@@ -207,6 +210,7 @@ function unload(): void {
   selected.value = undefined;
   journal.value = [];
   positions.value = inputs.value = outputs.value = [];
+  axis.value = 0;
   clk.value = mclk.value = line.value = 0;
   status.value = -1;
   machineOn.value = running.value = over.value = welcome.value = false;
@@ -271,6 +275,13 @@ function take(name: string, own?: string): void {
   chapter.value = own === undefined && session ? name : "";
   text.value = own ?? session?.text ?? part.value?.sessions[0]?.text ?? "";
   journal.value = [];
+  // Show the first station that the text selects.
+  if (isLine()) axis.value = Number(/^\s*axis (\d{1,2})\b/m.exec(text.value)?.[1] ?? 1) % part.value!.motors.length;
+}
+
+/** Whether the part is a line of stations, of which the page shows one. */
+export function isLine(): boolean {
+  return part.value?.bus === "line";
 }
 
 /** Start the session of the manual that the reader has selected. */

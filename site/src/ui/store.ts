@@ -9,7 +9,7 @@ const STEP = 1 << 17;
 const MOST = 524_288; // changes of a pin, a power of two; with more changes, the older half is discarded
 const MOST_OF_ALL = 2_000_000; // changes of all pins together; a change needs 12 bytes
 /** Log entries that only read; they cannot start or end a move. */
-export const READS = new Set(["st", "r", "<", "get", "axis", "count"]);
+export const READS = new Set(["st", "r", "<", "get", "axis", "count", "?", "!"]);
 
 export class Track {
   times = new Float64Array(256);

@@ -1,7 +1,7 @@
 // Waves of all pins: zoom with wheel, buttons or keys, drag to move, two cursors that snap to edges.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import { frames, part, running, selected, selectedIn, selectEdge, store } from "./state";
+import { axis, frames, isLine, part, running, selected, selectedIn, selectEdge, store } from "./state";
 import type { Row } from "./store";
 import { draw, edges, HEIGHT, type View } from "./draw";
 import { paced } from "./paced";
@@ -29,7 +29,9 @@ export function Waves() {
   const clk = part.value?.clkHz ?? 1;
   // The pins of the motors are above the others.
   const motors = part.value?.motors.flatMap(({ step, dir, phases }) => [step, dir, ...phases]) ?? [];
-  const found = (store?.rows ?? []).filter((row) => all || interesting(row));
+  // Of a line of stations, the pins of the selected station are shown.
+  const station = isLine() ? `[${axis.value}]` : "";
+  const found = (store?.rows ?? []).filter((row) => row.name.endsWith(station) && (all || interesting(row)));
   const rows = [true, false].flatMap((first) => found.filter(({ name }) => motors.includes(name) === first));
   const shown = useRef(rows);
   shown.current = rows;
@@ -85,6 +87,8 @@ export function Waves() {
       element.removeEventListener("wheel", wheel);
     };
   }, [name]);
+
+  useEffect(() => void frames.value++, [station]);
 
   useEffect(() => {
     view.current = { from: 0, to: 1, a: NaN, b: NaN };

@@ -207,6 +207,54 @@ const checks = {
     page.wrong.push(...again.wrong);
     return [page];
   },
+  async "the stations of a line"() {
+    const page = await open(`${base}#v=1&part=ppmc312-serial&run=2&speed=0&go=1`);
+    await rest(page);
+    const places = () => page.$$eval(".pg-stations small", (all) => all.map((one) => one.textContent).join());
+    const moved = await places();
+    equal(moved, "0,0,0,1500,0,-1000,0,0,0,0,0,0,0,0,0,0", "positions");
+    const names = () => page.$$eval(".pg-names li", (all) => all.map((one) => one.textContent));
+    for (const [station, place] of [["3", 1500], ["5", -1000]]) {
+      await page.click(`.pg-stations button:has(b:text-is("${station}"))`);
+      await page.waitForFunction((end) => document.querySelector(".pg-names li")?.textContent.endsWith(end), `[${station}]`);
+      truth((await names()).every((one) => one.endsWith(`[${station}]`)), `pins of another station: ${await names()}`);
+      equal(await position(page), place, `position of station ${station}`);
+      truth((await page.textContent(".pg-rate h2")).includes(`station ${station}`), "speed of another station");
+    }
+    // A frame and an answer are explained field by field.
+    const fields = async (bytes) => {
+      await page.click(`.pg-log tr:has(code:text-is("${bytes}"))`);
+      await page.waitForFunction(() => /Selected/.test(document.querySelector(".pg-registers")?.textContent));
+      return page.$$eval(".pg-fields tr", (rows) => rows.map((row) => row.textContent).join("; "));
+    };
+    equal(
+      await fields("95 A3 00 00 00 00 03 E8"),
+      "control code95instruction; address5station 5; codeA3move with ramps, CCW; rate00 000; " +
+        "pulses00 00 03 E81000; checksum5Cright; characters95 61 33 30 30 30 30 30 30 30 30 30 33 65 38 5C",
+      "frame",
+    );
+    truth(/P312-CMD-82/.test(await page.textContent(".pg-rule a")), "rule of the frame");
+    equal(
+      await fields("A0 FF FF FC 18"),
+      "control codeA5data; address5station 5; positionFF FF FC 18-1000; checksum48right; characters" +
+        "A5 66 66 66 66 66 63 31 38 48",
+      "answer",
+    );
+    // An answer that the reader selects shows its station.
+    await fields("A0 00 00 05 DC");
+    equal(await position(page), 1500, "position of the station of the answer");
+    // A link contains what was sent after the session.
+    await page.fill("#pg-now", "axis 3; > A4 0140 00000064; < 90");
+    await page.press("#pg-now", "Enter");
+    await page.waitForFunction(() => document.querySelector(".pg-stations button:nth-child(4) small").textContent === "1400");
+    await rest(page);
+    await page.click("text=Link");
+    await page.waitForFunction(() => location.hash.includes("text="));
+    const again = await open(page.url());
+    await again.waitForFunction(() => document.querySelector(".pg-stations button:nth-child(4) small")?.textContent === "1400");
+    page.wrong.push(...again.wrong);
+    return [page];
+  },
   async "the machine stops the motor"() {
     const page = await open();
     await page.waitForSelector(RUN);

@@ -60,7 +60,7 @@ const LANDING_BOXES = [
 ].join();
 const PLAYGROUND_BOXES = [
   ".pg-bar > *, .pg-note, .pg-box, .pg-box h2, .pg-motor, .pg-rail, .pg-pins > *, .pg-more, .pg-editor, .pg-send > *",
-  ".pg-log, .pg-registers, .pg-bits, .pg-plot, .pg-waves, .pg-measured, .pg-caret",
+  ".pg-stations > *, .pg-log, .pg-registers, .pg-bits, .pg-plot, .pg-waves, .pg-measured, .pg-caret",
 ].join();
 /** Throw an error for two boxes that overlap although no one contains the other. */
 const apart = (boxes, where) =>
@@ -196,16 +196,18 @@ const checks = {
       [1440, 900, { ...RUN, part: "ppmc104", run: "2" }],
       [1440, 900, { ...RUN, part: "ppmc2104", run: "2" }],
       [1440, 900, { ...RUN, part: "bank", run: "2" }],
+      [1440, 900, { ...RUN, part: "ppmc312-serial", run: "2" }],
       [1440, 900, {}],
       [768, 1024, { ...RUN, part: "ppmc104", run: "2" }],
       [390, 844, { ...RUN, part: "ppmc104", run: "2" }],
       [390, 844, { ...RUN, part: "bank", run: "2" }],
+      [390, 844, { ...RUN, part: "ppmc312-serial", run: "2" }],
     ]) {
       const size = `${words.part ?? "first visit"}, ${width} × ${height}`;
       page = await open(`${base}playground.html#${new URLSearchParams(words)}`, { viewport: { width, height } });
       if (words.part) await rest(page);
       else await page.waitForSelector(".pg-note");
-      await page.waitForSelector(".pg-bits");
+      await page.waitForSelector(".pg-registers p");
       const [boxes, wide, tall] = await page.evaluate((selector) => {
         const all = [...document.querySelectorAll(selector)].filter((one) => one.getBoundingClientRect().width > 1);
         return [

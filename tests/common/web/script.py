@@ -15,6 +15,7 @@ from cocotb_tests.harness.bus import COMMAND, DATA, IBF, OBF, HostBus
 from cocotb_tests.harness.model_bench import ModelBench, OnModel, on_model
 from openppmc.check.records import Recording, steps
 from scripts.site.webparts import Motor, WebPart
+from tests.common.web.stations import StationModels
 
 DENSE, FIRST, LONGEST = 16, 4, 8_000
 """Polls: number of polls without a pause (DENSE), first pause (FIRST) and longest pause (LONGEST) in cycles.
@@ -65,7 +66,8 @@ class Player:
 
     def __init__(self, part: WebPart, **pins: int) -> None:
         self.part = part
-        self.bench = ModelBench(part.part, OnModel(part.config), part.settle, **{**part.idle, **pins})
+        model = StationModels(part) if part.stations else None
+        self.bench = ModelBench(part.part, OnModel(part.config), part.settle, model, **{**part.idle, **pins})
         self.got: list[int] = []
         self.mark = self.bench.now
         self.clocks: dict[str, Any] = {}

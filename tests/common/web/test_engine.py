@@ -80,6 +80,7 @@ MOVES = {
     "ppmc2104": f"{BYTES.replace('0A', '02').replace('c 43', 'p 00 c 43')} idle wait 2ms",
     "stmc": f"{BYTES} idle wait 2ms",
     "ppmc312": sessions("ppmc312")[0].text.split("wait 1540ms")[0] + "wait 200ms",
+    "ppmc312-serial": sessions("ppmc312-serial")[1].text,
     "pmc006": sessions("pmc006")[0].text,
     "bank": f"axis 0 {BYTES}\naxis 3 {BYTES} idle wait 2ms",
 }
@@ -135,11 +136,31 @@ WRONG = (
     ("# " + "x" * 200_000, "200000 at most"),
 )
 
+WRONG_ON_A_LINE = (
+    ("axis 16", "line 1: there is no station 16; write 0 to 15"),
+    ("unplug x", "line 1: x: not a valid station"),
+    ("> 4", "line 1: 4: not bytes"),
+    (">", "line 1: no instruction; write its code and data"),
+    ("m", "line 1: no characters; write their bytes"),
+    ("unplug 7\naxis 7; idle", "line 2: station 7 does not reply; plug connects it to the line"),
+)
 
-def test_bad_input():
+
+@pytest.mark.parametrize(("part", "texts"), [("ppmc104", WRONG), ("ppmc312-serial", WRONG_ON_A_LINE)])
+def test_bad_input(part, texts):
     """For an invalid text, one line states the place and the reason."""
-    for (text, wrong), got in zip(WRONG, played(*(("ppmc104", text) for text, _ in WRONG)), strict=True):
+    for (text, wrong), got in zip(texts, played(*((part, text) for text, _ in texts)), strict=True):
         assert wrong in got.get("error", ""), (text[:40], got)
+
+
+def test_a_wrong_reply_is_marked():
+    """A reply that differs from the text is marked, and the session continues."""
+    (got,) = played(("ppmc312-serial", "? 80\naxis 3; > 41\n< A0 13\nunplug 3\n? 90\n> 41\n< -"))
+    assert got["bad"] == [
+        "< 90: station 1: ready (the text expects 80)",
+        "< A0 12: station 3: version 18 (the text expects A0 13)",
+        "< -: no station replies (the text expects 90)",
+    ]
 
 
 def test_the_machine_stops_the_motor():

@@ -22,8 +22,8 @@ WITHOUT = {("stmc", "9")}
 
 
 def test_every_part_is_there():
-    """The playground has exactly the devices of the site."""
-    assert set(PARTS) == set(WEB_PARTS)
+    """The playground has exactly the devices of the site; a variant of a device has no manual."""
+    assert set(PARTS) == {DEVICES[part].folder for part in WEB_PARTS}
 
 
 @pytest.mark.parametrize("part", PAGES)
@@ -41,14 +41,16 @@ def test_every_example_can_be_run(part):
 
 
 def test_other_pages_stay_as_they_are():
-    """A page without sessions is not changed; a manual gets one link; the overview gets one link to a
-    session.
+    """A page without sessions is not changed; a manual, the overview and the page of the serial mode get one
+    link.
     """
     assert run_links("docs/host.md", "# A\n\ntext") == "# A\n\ntext"
     manual = run_links("docs/bank/README.md", "# A\n\ntext")
     assert manual.startswith("# A\n") and manual.count("playground.html#v=1&part=bank") == 1
     overview = run_links("README.md", "# A\n\ntext")
     assert overview.count('href="playground.html#v=1&part=ppmc104&run=2&go=1"') == 1
+    serial = run_links("docs/ppmc312/serial.md", "# A\n\ntext")
+    assert serial.count("playground.html#v=1&part=ppmc312-serial&run=2&go=1") == 1
 
 
 @pytest.mark.parametrize("part", WEB_PARTS)
