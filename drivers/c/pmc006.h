@@ -36,7 +36,7 @@ extern "C" {
 #define PMC006_CURRENT_BOOST 'M'    /**< current compensation, 100 .. 1200; 300 */
 #define PMC006_LEAD 'P'             /**< speed compensation, 300 .. 2000; 1250 */
 #define PMC006_EXT_EDGE 'J'         /**< bits 0, 1 = 1: EXT1, EXT2 act on the rising edge; 0 */
-#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63; 64 after power-up, which T cannot write */
+#define PMC006_STALL_LENGTH 'T'     /**< samples, 0 .. 63; 64 after power-up, a value that T cannot write */
 #define PMC006_STALL_MODE 'Y'       /**< bit 0: on, bit 1: stops the motor, bit 2: drives GPO5; 0 */
 #define PMC006_STALL_LEVEL 'Z'      /**< 0 .. 511; 0 */
 #define PMC006_AUTOSTART 'F'        /**< 1: run the program after power-up; 0 also halts it now. Write only */
@@ -106,8 +106,8 @@ ppmc104_result_t pmc006_save(pmc006_t *dev);
  * The functions return when the controller has accepted the motion. @{ */
 /** Move. @param steps forward is positive; neither 0 nor -2^31 */
 ppmc104_result_t pmc006_move(pmc006_t *dev, int32_t steps);
-/** Move to a position. @return PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT: this is the current
- * position */
+/** Move to a position. @return PPMC104_BAD_ARGUMENT: this is the current position.
+ * PPMC104_POSITION_UNKNOWN: as pmc006_position() */
 ppmc104_result_t pmc006_move_to(pmc006_t *dev, int32_t position);
 /** Run at constant speed until stopped. @param speed 1 .. 16 000; PMC006_MAX_SPEED changes it during the
  * run */
@@ -142,8 +142,8 @@ ppmc104_result_t pmc006_clear_stops(pmc006_t *dev);
 /**
  * Return the step counter of the controller.
  * @return PPMC104_POSITION_UNKNOWN: the position was not set since pmc006_open(), or the controller was
- * reset. The driver detects a reset only because PMC006_MAX_SPEED (if it was not 1000) or PMC006_EXT_ON has
- * changed
+ * reset. The driver detects a reset only from a changed value of PMC006_MAX_SPEED (if it was not 1000) or of
+ * PMC006_EXT_ON
  */
 ppmc104_result_t pmc006_position(pmc006_t *dev, int32_t *position);
 ppmc104_result_t pmc006_set_position(pmc006_t *dev, int32_t position);
@@ -156,7 +156,7 @@ ppmc104_result_t pmc006_outputs(pmc006_t *dev, uint8_t bits);
 ppmc104_result_t pmc006_program(pmc006_t *dev, const uint32_t *words, unsigned count);
 /** Write the buffer to the EEPROM, and wait for the end of the write. */
 ppmc104_result_t pmc006_program_burn(pmc006_t *dev);
-/** Run the program from an instruction on, 0 .. 99. The step counter continues. The driver does not wait
+/** Run the program, beginning with this instruction, 0 .. 99. The step counter continues. The driver does not wait
  * for motions of a program. */
 ppmc104_result_t pmc006_program_run(pmc006_t *dev, unsigned instruction);
 /** Halt the program. It will not run after power-up (PMC006_AUTOSTART). A motion continues. */

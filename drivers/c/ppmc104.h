@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 /** @name Registers
- * PPMC104_REG_...: the `reg` argument of the access functions. Memory mapped, register n is at byte address 4 n.
+ * PPMC104_REG_...: the `reg` argument of the access functions. In a memory map, register n is at byte address 4 n.
  * PPMC104_STATUS_...: bits of the status register. @{ */
 /* Registers, written by `make packages` from packages/registers/mailbox.rdl. */
 #define PPMC104_REG_DATA 0x0u /**< read: byte of a response; write: data byte */
@@ -59,7 +59,7 @@ typedef enum {
     PPMC2104_ERR_DATA = 34,          /**< data byte that no instruction requested */
     PPMC2104_ERR_CUT = 35,           /**< an incomplete instruction was discarded */
     PPMC2104_ERR_UNINITIALISED = 36, /**< there is no initial setting */
-    PPMC2104_ERR_BUSY = 37,          /**< not allowed while the axis moves */
+    PPMC2104_ERR_BUSY = 37,          /**< not allowed during an operation of the axis */
     PPMC2104_ERR_STANDSTILL = 38,    /**< there is no motion to stop */
     PPMC2104_ERR_START = 39,         /**< a limit, the alarm or the origin is active: no motion */
     PPMC2104_ERR_NO_RAMP = 40,       /**< deceleration is not possible: the motion continues */
@@ -101,8 +101,9 @@ typedef struct {
     uint8_t (*read)(void *ctx, unsigned reg);                 /**< make one read access of register 0 or 1 */
     void (*write)(void *ctx, unsigned reg, uint8_t value);    /**< make one write access of register 0 or 1 */
     void *ctx;                                                /**< argument of the two functions */
-    /** Polls until a wait times out, at least 1. Choose a large value: after an initialisation, the part
-     * may not respond for 40 000 cycles (FAST) or 163 ms (DATASHEET). Ignored if `give_up` is set. */
+    /** Number of polls until a wait times out, at least 1. Choose a large value: after an initialisation,
+     * the part does not respond for up to 40 000 cycles (FAST) or 163 ms (DATASHEET). Ignored if `give_up` is
+     * set. */
     unsigned long limit;
     /** If not null, this function is called after each unsuccessful poll, with the number of polls in this
      * wait (from 1). If it returns true, the wait times out. It may read a clock, trigger a watchdog, or
@@ -230,8 +231,8 @@ uint8_t ppmc104_status(ppmc104_t *dev);
 bool ppmc104_busy(ppmc104_t *dev);
 /**
  * Wait for the end of the operation, and read the finish status, which clears the interrupt. Compare the
- * finish status and the remaining pulses with the operation that was started. An interrupt routine may have
- * read the finish status before.
+ * finish status and the remaining pulses with the operation that was started. It is not an error if an
+ * interrupt routine has already read the finish status.
  * The limit of the waits (`limit`, `give_up`) must be long enough for the motion.
  * @param finish may be null; valid if the result is PPMC104_OK or PPMC104_UNCONFIRMED
  * @return PPMC104_UNCONFIRMED: the part was reset during the motion, executes a motion of another program, or
@@ -258,15 +259,15 @@ ppmc104_result_t ppmc104_aux_inputs(ppmc104_t *dev, uint8_t *levels);      /**< 
  * @return PPMC104_UNCONFIRMED if this is the finish status of a part that was reset
  */
 ppmc104_result_t ppmc104_remaining(ppmc104_t *dev, const ppmc104_finish_t *finish, uint32_t *pulses);
-/** Convert the number that the part returns for the remaining pulses to pulses. `finish` is the finish status
- * of the motion. */
+/** Return the number of remaining pulses. `number` is the value that the part returns for it, `finish` is the
+ * finish status of the motion. */
 uint32_t ppmc104_left(const ppmc104_finish_t *finish, uint32_t number);
 /** @} */
 
-/** Set the chopper times at standstill, 0 .. 255: about 3 us per unit, plus 27 us (on) and 33 us (off).
- * Not during an operation. */
+/** Set the times with which the phases are chopped at standstill, 0 .. 255: about 3 us per unit, plus 27 us
+ * (on) and 33 us (off). Not during an operation. */
 ppmc104_result_t ppmc104_switching(ppmc104_t *dev, uint8_t on, uint8_t off);
-/** Set the auxiliary outputs: 1 in bits 3..0 drives AUXO3..0 low. Always allowed. */
+/** Set the auxiliary outputs: a 1 in bit n drives AUXOn low, n = 0 .. 3. Always allowed. */
 ppmc104_result_t ppmc104_aux_outputs(ppmc104_t *dev, uint8_t bits);
 /** Set the pin AUX: true drives the pin low. Always allowed. */
 ppmc104_result_t ppmc104_aux(ppmc104_t *dev, bool on);
@@ -297,7 +298,7 @@ ppmc104_result_t ppmc104_ask_byte(ppmc104_t *dev, uint8_t code, uint8_t *byte);
  * The drivers of the other parts use these functions. Programs do not need them. @{ */
 /** Poll until (status & mask) == value, or a bit of `or_set` is 1. `status` receives the last status. */
 ppmc104_result_t ppmc104_poll(ppmc104_t *dev, uint8_t mask, uint8_t value, uint8_t or_set, uint8_t *status);
-/** Return whether a wait has exceeded its limit after this number of unsuccessful polls. */
+/** Return true if a wait has exceeded its limit after this number of unsuccessful polls. */
 bool ppmc104_over(ppmc104_t *dev, unsigned long polls);
 /** Wait until IBF = 0, or until a bit of `or_set` is 1, then write a byte. */
 ppmc104_result_t ppmc104_send(ppmc104_t *dev, unsigned reg, uint8_t value, uint8_t or_set);

@@ -107,8 +107,8 @@ ppmc104_result_t ppmc2104_init(ppmc2104_t *dev, unsigned axis, const ppmc2104_co
 ppmc104_result_t ppmc2104_start(ppmc2104_t *dev, unsigned axis, const ppmc2104_motion_t *motion);
 /** Move with ramps. @param pulses CW positive, -16 777 216 .. 16 777 216, not 0 */
 ppmc104_result_t ppmc2104_move(ppmc2104_t *dev, unsigned axis, int32_t pulses);
-/** Move with ramps to a position. The result may be PPMC104_POSITION_UNKNOWN, or PPMC104_BAD_ARGUMENT if
- * this is the current position or it is too far. */
+/** Move with ramps to a position. The result is PPMC104_POSITION_UNKNOWN as with ppmc2104_position(), or
+ * PPMC104_BAD_ARGUMENT if `position` is the current position or too far away. */
 ppmc104_result_t ppmc2104_move_to(ppmc2104_t *dev, unsigned axis, int32_t position);
 /**
  * Start both axes on the same clock edge: `run` sets RUN low, both motions are sent, and `run` sets RUN high.
@@ -117,8 +117,7 @@ ppmc104_result_t ppmc2104_move_to(ppmc2104_t *dev, unsigned axis, int32_t positi
  */
 ppmc104_result_t ppmc2104_start_both(ppmc2104_t *dev, const ppmc2104_motion_t *first,
                                      const ppmc2104_motion_t *second);
-/** End the motion without a further pulse. If the axis does not move, the result is
- * PPMC2104_ERR_STANDSTILL. */
+/** End the motion without a further pulse. At standstill, the result is PPMC2104_ERR_STANDSTILL. */
 ppmc104_result_t ppmc2104_stop(ppmc2104_t *dev, unsigned axis);
 /**
  * Decelerate, then end. If a deceleration is not possible (constant speed, waiting for RUN, already
@@ -129,7 +128,7 @@ ppmc104_result_t ppmc2104_stop_slowly(ppmc2104_t *dev, unsigned axis);
 
 /** Return the status register. This needs no handshake. */
 uint8_t ppmc2104_status(ppmc2104_t *dev);
-/** Return whether an operation of the axis is running or waits for RUN. */
+/** Return true if an operation of the axis is running or waits for RUN. */
 bool ppmc2104_busy(ppmc2104_t *dev, unsigned axis);
 
 /**
@@ -153,7 +152,8 @@ ppmc104_result_t ppmc2104_position(ppmc2104_t *dev, unsigned axis, int32_t *posi
 ppmc104_result_t ppmc2104_set_position(ppmc2104_t *dev, unsigned axis, int32_t position);
 
 /** @name Reads
- * Not while the axis moves (PPMC2104_ERR_BUSY), except ppmc2104_aux_inputs(). @{ */
+ * Not during an operation of the axis (PPMC2104_ERR_BUSY), except ppmc2104_aux_inputs(). An operation that waits
+ * for RUN also counts. @{ */
 /** Read the finish status, which clears the interrupt of this axis. An interrupt-driven program must call
  * this function before the next start. */
 ppmc104_result_t ppmc2104_finish(ppmc2104_t *dev, unsigned axis, ppmc104_finish_t *finish);
@@ -165,14 +165,16 @@ ppmc104_result_t ppmc2104_remaining(ppmc2104_t *dev, unsigned axis, const ppmc10
 ppmc104_result_t ppmc2104_aux_inputs(ppmc2104_t *dev, uint8_t *levels); /**< AUXI1, AUXI0 in bits 1, 0 */
 /** @} */
 
-/** Set the chopper times at standstill in units of 0.5 us, 64 .. 255 each. Not while the axis moves. */
+/** Set the times with which the phases are chopped at standstill, in units of 0.5 us, 64 .. 255 each. Not
+ * during an operation of the axis. */
 ppmc104_result_t ppmc2104_switching(ppmc2104_t *dev, unsigned axis, uint8_t on, uint8_t off);
-/** Set the time from the end of a motion to HOLD: 128 us * (units + 1). Not while the axis moves. */
+/** Set the time from the end of a motion to HOLD: 128 us * (units + 1). Not during an operation of the
+ * axis. */
 ppmc104_result_t ppmc2104_hold_delay(ppmc2104_t *dev, unsigned axis, uint8_t units);
 /** Set the auxiliary outputs: 1 in bit 1 drives AUXO1 low, 1 in bit 0 drives AUXO0 low. */
 ppmc104_result_t ppmc2104_aux_outputs(ppmc2104_t *dev, uint8_t bits);
 /** Switch all coils of the axis off. Then the initial setting is no longer valid, and the position is
- * unknown. Not while the axis moves. */
+ * unknown. Not during an operation of the axis. */
 ppmc104_result_t ppmc2104_excitation_off(ppmc2104_t *dev, unsigned axis);
 
 /**

@@ -69,7 +69,7 @@
 #define EVENT_BYTES 9u
 #define EVENT_BYTES_LINE 7u
 #define COLLECT_MAX 256u
-#define GAP_READS 4u /* the next block appears at least 8 cycles after the end of a block */
+#define GAP_READS 4u /* reads of CSR between two blocks: MREF is 1 there for at least 8 cycles */
 #define LOOK_POLLS 256u /* polls of CSR between two reads of the status in a wait */
 
 /* Causes of the END codes 31 .. 39 of the line. */

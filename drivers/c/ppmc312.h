@@ -45,7 +45,7 @@ typedef struct {
     uint16_t rate_start; /**< RS, 0x11 .. 0xFFFF, at least rate_high + 128 */
     uint16_t rate_high;  /**< RH, 2 .. 0xFFEF */
     uint32_t up;         /**< NA, acceleration pulses, 1 .. 0xFFFFFF; rejected with detail 05 if too small */
-    uint16_t rate_stop;  /**< RP, as rate_start; 0: deceleration like the acceleration. Only on the bus */
+    uint16_t rate_stop;  /**< RP, range as rate_start; 0: deceleration like the acceleration. Only on the bus */
     uint32_t down;       /**< ND, range as `up`; ignored if rate_stop is 0 */
 } ppmc312_table_t;
 
@@ -75,8 +75,8 @@ typedef enum {
 typedef enum {
     PPMC312_NOW = 0,
     PPMC312_AT_POSITION = 4, /**< not for motions */
-    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n; not SEARCH, RETURN, STEP; motions only on the bus */
-    PPMC312_ON_EVENT1 = 7
+    PPMC312_ON_EVENT0 = 5,   /**< falling edge of evt0_n. Motions: only on the bus, not SEARCH, RETURN, STEP */
+    PPMC312_ON_EVENT1 = 7    /**< as PPMC312_ON_EVENT0, with evt1_n */
 } ppmc312_when_t;
 
 /** A motion. */
@@ -112,7 +112,7 @@ typedef struct {
 #define PPMC312_REPORT_RUN 0xE2u            /**< a motion that waited for RUN has begun */
 #define PPMC312_REPORT_ENCODER 0xE3u        /**< 0: inside, 1: outside */
 #define PPMC312_REPORT_IN_POSITION 0xE4u    /**< 0: inside, 1: outside */
-#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: the report does not name the instruction */
+#define PPMC312_REPORT_EXECUTED 0xE8u       /**< line only: an instruction was executed; the report does not name it */
 #define PPMC312_REPORT_INPUTS 0xE9u         /**< flag (1: earlier changes were overwritten), changed bits */
 #define PPMC312_REPORT_ALARM 0xF4u          /**< 0: pin, 1 .. 3: unread answers */
 #define PPMC312_REPORT_EVENT_FAILED 0xF8u
@@ -187,8 +187,8 @@ ppmc104_result_t ppmc312_curve(ppmc312_t *dev, const ppmc312_curve_t *curve);
 ppmc104_result_t ppmc312_start(ppmc312_t *dev, const ppmc312_motion_t *motion);
 /** Move with ramps at the high rate. @param pulses CW is positive; not 0 */
 ppmc104_result_t ppmc312_move(ppmc312_t *dev, int32_t pulses);
-/** Move with ramps to a position. @return PPMC104_POSITION_UNKNOWN; PPMC104_BAD_ARGUMENT: this is the
- * current position */
+/** Move with ramps to a position. @return PPMC104_BAD_ARGUMENT: this is the current position.
+ * PPMC104_POSITION_UNKNOWN: as ppmc312_position() */
 ppmc104_result_t ppmc312_move_to(ppmc312_t *dev, int32_t position);
 /** Stop immediately or with the ramp. @param position only for PPMC312_AT_POSITION */
 ppmc104_result_t ppmc312_stop(ppmc312_t *dev, bool slowly, ppmc312_when_t when, int32_t position);
@@ -197,8 +197,8 @@ ppmc104_result_t ppmc312_change(ppmc312_t *dev, bool ramp, uint16_t rate, ppmc31
 /** @} */
 
 /**
- * Wait for the end of the motion that this driver started. The function reads reports; ppmc312_report()
- * returns those of other events. While override or event buffers are in use, the driver sends no status
+ * Wait for the end of the motion that this driver started. The function reads all reports; ppmc312_report()
+ * returns the reports of other events. While override or event buffers are in use, the driver sends no status
  * instruction on the bus, because an unread answer together with a trigger causes an alarm. If the part is
  * reset during this time, the wait ends with PPMC104_TIMEOUT.
  * @param end may be null; valid if the result is PPMC104_OK
@@ -244,12 +244,12 @@ typedef enum {
 ppmc104_result_t ppmc312_driver(ppmc312_t *dev, ppmc312_driver_t what);
 
 ppmc104_result_t ppmc312_inputs(ppmc312_t *dev, uint8_t *levels);          /**< AUXI */
-ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< 27: first byte in bits 15..8 */
-ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< 0 .. 63, 1: low */
+ppmc104_result_t ppmc312_control_inputs(ppmc312_t *dev, uint16_t *levels); /**< 27: its first byte in bits 15..8 */
+ppmc104_result_t ppmc312_outputs(ppmc312_t *dev, uint8_t bits);            /**< bits 5..0; 1: low */
 ppmc104_result_t ppmc312_input_mask(ppmc312_t *dev, uint8_t mask);         /**< monitored bits of AUXI; 0: off */
 ppmc104_result_t ppmc312_speed_limit(ppmc312_t *dev, uint16_t rate);       /**< high-speed limit, 2 or more */
-ppmc104_result_t ppmc312_end_monitor(ppmc312_t *dev, bool on);             /**< 1: a motion waits for end_n */
-ppmc104_result_t ppmc312_in_position(ppmc312_t *dev, uint16_t range);      /**< monitor; 0: off */
+ppmc104_result_t ppmc312_end_monitor(ppmc312_t *dev, bool on);             /**< true: an end also requires end_n = L */
+ppmc104_result_t ppmc312_in_position(ppmc312_t *dev, uint16_t range);      /**< in-position monitor; 0: off */
 ppmc104_result_t ppmc312_encoder(ppmc312_t *dev, uint16_t range);          /**< deviation monitor; 0: off */
 ppmc104_result_t ppmc312_interlock_at(ppmc312_t *dev, int32_t position);
 /** Line only: return the last error code, and the framing, overrun and checksum errors since the last

@@ -11,8 +11,8 @@
 
 /** A serial line with 8 data bits, no parity, one stop bit. Several stations may share one ppmc_line_t. */
 typedef struct {
-    /** Send bytes, and return when the last stop bit was sent. On RS-485, also switch the driver on and
-     * off. */
+    /** Send bytes, and return when the last stop bit was sent. On RS-485, also switch the driver
+     * of the transceiver on and off. */
     void (*send)(void *ctx, const uint8_t *bytes, unsigned count);
     /** Wait at most `milliseconds` for a byte. False: no byte has arrived. 0: return only a byte that was
      * received before the call. */

@@ -52,7 +52,7 @@ typedef struct {
     uint16_t ramp;         /**< PA, steps from start to top speed; 0: no ramp */
 } stmc_config_t;
 
-/** Levels of stmc_inputs(). The switches are active low. The motor may run while MON = 1. */
+/** Levels of stmc_inputs(). The switches are active low. MON = 1 permits motions. */
 #define STMC_IN_CNP 0x80u
 #define STMC_IN_MON 0x40u
 #define STMC_IN_L1 0x08u

@@ -89,7 +89,7 @@ FLAGS = {
     "move flags": "CW| |CCW| |IDX| |OV|trigger bit 1|trigger bit 0",
     "cause": "|alarm|normal end|origin|low speed|decelerating stop|stop|speed limit|limit",
     "condition": "| | |WRN|ABN|FIX|ACC|NOR|INI",
-    "profile": "trapezoid| |only up|only down|triangle| | | |held",
+    "profile": "trapezoid| |acceleration only|deceleration only|triangle| | | |waits for RUN",
 }
 """By parameter: the text for the value 0, and the names of its bits, bit 7 first."""
 TITLES = re.compile(r"\[([0-9A-F]{2})(?:, [0-9A-F]{2})?\]\(#[^)]*\) \| ([^|]+) \|")

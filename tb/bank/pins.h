@@ -32,7 +32,7 @@ inline void set_switches(Vboard& top, const Plant (&plants)[kAxes]) {
     bits(top.alm_n, &Plant::alm);
 }
 
-// Five bits per axis. For up to 64 bits, Verilator uses one number; for more, it uses 32-bit words.
+// Five bits per axis. Verilator stores up to 64 bits in one number, and more bits in 32-bit words.
 template <class Port>
 unsigned five_bits(const Port& port, unsigned from) {
     if constexpr (std::is_integral_v<Port>) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Calls the C drivers on buses without a working part. Usage: dead SEED COUNT. Build it with sanitizers.
- * All reads return one value (each of 256), or random bits, of which some may be stuck. A line is silent, or it
- * never stops sending these bytes. Each call must return a result after a limited number of accesses. With one
+/* Calls the C drivers on buses without a working part. Usage: dead SEED COUNT. Build it with sanitizers. All reads
+ * return one value (each of 256), or random bits, of which some may be stuck. A line is silent, or it sends these
+ * values without end. Each call must return a result after a limited number of accesses. If all reads return one
  * value, no call may confirm a motion or read a position. The program prints how often each result occurred, and
  * the largest number of accesses of a call. */
 #include <stdio.h>

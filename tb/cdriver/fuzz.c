@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Sends damaged replies to the C drivers. Usage: fuzz SEED COUNT. The program is built with sanitizers.
- * A call that does not return, a value from a damaged frame, or an access out of bounds ends it with an
- * error. Otherwise it prints how often each result occurred. */
+ * A call that does not return, a value from a damaged frame, or an access out of bounds ends the program
+ * with an error. Otherwise, the program prints how often each result occurred. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,8 +2,8 @@
 /**
  * @file OpenPPMC.h
  * Access functions of the C drivers on an Arduino: a bank on SPI, and a part on an 8-bit bus.
- * The functions of ppmc_bank.h and ppmc104.h move the motors. The other drivers of the library (stmc.h,
- * ppmc2104.h, ppmc312.h, pmc006.h) are included by name.
+ * The functions of ppmc_bank.h and ppmc104.h move the motors. For the other drivers of the library, include
+ * their headers by name: stmc.h, ppmc2104.h, ppmc312.h, pmc006.h.
  */
 #ifndef OPENPPMC_H
 #define OPENPPMC_H
@@ -43,8 +43,8 @@ class PpmcSpi {
 
     /**
      * Return the errors since the last call as bits of the status byte, and clear them. 0: no error. 0x08: sck
-     * is too fast, and the data read are not reliable. 0x04, 0x02: a frame was cut or rejected. Others: no
-     * bridge.
+     * is too fast, and the data read are not reliable. 0x04: a frame was cut. 0x02: a frame was rejected. Other
+     * bits: no bridge, SPI mode 2, or sck is too fast.
      */
     uint8_t faults()
     {

@@ -21,7 +21,7 @@ For {revisions}: [revisions](../boards.md#revisions).
 `make docs` writes this page from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change these \
 files, not this page.
 For each part that the board carries, the page has a drawing, the levels and an order list.
-[boards.md](../boards.md#4-power-and-levels) has the reasons, other drivers and other switches.
+[boards.md](../boards.md#4-power-and-levels) explains the circuits, other drivers and other switches.
 Before you connect a winding, read [Before the motor turns](../boards.md#10-before-the-motor-turns).
 These circuits were not built or tested.
 
@@ -31,7 +31,7 @@ a pull-up.
 optocoupler or driver.
 - A resistor of {resistor} at a wire connects the wire to GND or 3.3 V, on the FPGA's side of the circuit.
   It holds the wire at a fixed level while the FPGA is not configured.
-- Build only the circuits that your machine needs, and omit the lines of the others in the order list.
+- Build only the circuits that your machine needs; omit the components of other circuits from the order list.
   With `HOST=uart` nothing is connected to the bus pins.
 - Order numbers are examples of components that were sold when this page was written.
   Any component of the same type and case is suitable.

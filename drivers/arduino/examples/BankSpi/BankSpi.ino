@@ -8,7 +8,7 @@ static PpmcSpi bus(10);
 static ppmc_bank_t bank;
 static ppmc_bank_axis_t x, y;
 
-// Report a failure, and stop here. A motor that moves ends its move.
+// Report a failure, and stop the program here. A running move continues to its end.
 static void check(const char *what, bool works, const char *text)
 {
     if (works) return;
@@ -25,8 +25,8 @@ static void check(const char *what, ppmc104_result_t result)
 
 void setup()
 {
-    // Two phases on, high: on. 16 MHz / 32 = 500 kHz: start at 500 kHz / 60, high speed 500 kHz / 40, 6 pulses of
-    // ramp.
+    // 4 phases, two at a time, switched on by a high level. 16 MHz / 32 = 500 kHz: start at 500 kHz / 60, high
+    // speed 500 kHz / 40, 6 pulses of ramp.
     const ppmc104_config_t config = {4, false, true, false, false, 59, 39, 6};
 
     Serial.begin(115200);

@@ -8,7 +8,7 @@ static const uint8_t DATA[8] = {2, 3, 4, 5, 6, 7, 8, 9};
 static PpmcPins bus(DATA, A0, A1, A2, A3);
 static ppmc104_t axis;
 
-// Report a failure, and stop here. A motor that moves ends its move.
+// Report a failure, and stop the program here. A running move continues to its end.
 static void check(const char *what, ppmc104_result_t result)
 {
     if (result == PPMC104_OK) return;
@@ -20,8 +20,8 @@ static void check(const char *what, ppmc104_result_t result)
 
 void setup()
 {
-    // Two phases on, high: on. With CSEL high, 16 MHz / 32 = 500 kHz: start at 500 kHz / 60, high speed
-    // 500 kHz / 40, 6 pulses of ramp.
+    // 4 phases, two at a time, switched on by a high level. With CSEL high, 16 MHz / 32 = 500 kHz: start at
+    // 500 kHz / 60, high speed 500 kHz / 40, 6 pulses of ramp.
     const ppmc104_config_t config = {4, false, true, false, false, 59, 39, 6};
 
     Serial.begin(115200);
