@@ -16,7 +16,7 @@ FOLDER = DOCS / "boards"
 HEAD = """\
 # Wiring of the {title}
 
-For {revisions}: [revisions](../boards.md#revisions).
+This page is for {revisions} ([revisions](../boards.md#revisions)).
 
 `make docs` writes this page from `constraints/{name}/board.yml` and `scripts/pages/wiring`; change these \
 files, not this page.
