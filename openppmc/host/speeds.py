@@ -40,7 +40,7 @@ class BaseClock:
         external: True for the clock at the pin `clock`.
         least_rate: lowest rate byte that the driver uses with this clock.
         beyond: number of base clock periods of an interval, minus the rate byte of the interval: 1 if the
-        speed is base clock / (rate + 1), 0 if it is base clock / divisor.
+            speed is base clock / (rate + 1), 0 if it is base clock / divisor.
         slowest_rate: highest rate byte, which selects the slowest speed.
         clk: number of the clock in the initialisation, on parts that number their clocks.
     """
