@@ -41,6 +41,7 @@ def pins(text: str) -> tuple[str, ...]:
 LITEX = "https://github.com/litex-hub/litex-boards/tree/master/litex_boards/platforms/"
 AMARANTH = "https://github.com/amaranth-lang/amaranth-boards/tree/main/amaranth_boards/"
 SIPEED9 = "https://github.com/sipeed/TangNano-9K-example/tree/main/spi_lcd/src/lcd114_test.cst"
+SIPEED4 = "https://github.com/sipeed/TangNano-4K-example/tree/main/"
 SIPEED = "https://github.com/sipeed/TangNano-20K-example/tree/main/"
 MISTERY_NANO = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
 CHUBBY75 = "https://github.com/q3k/chubby75/tree/master/5a-75b/hardware_V7.0.md"
@@ -171,6 +172,14 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
             BUFFERS,
         ),
         Special(pins("M11 N11 P12 K15 N12 L16 K16 J15"), Kind.LOADED, "74HC245 U9 to the header", BUFFERS),
+    ),
+    "tangnano4k": (
+        Special(pins("1 2 47 48"), Kind.NEVER, "configuration flash", LITEX + "sipeed_tang_nano_4k.py"),
+        Special(pins("3 4 6-9"), Kind.NEVER, "JTAG, JTAGSEL_N, DONE", APICULA),
+        Special(pins("10"), Kind.NEVER, "MODE1, LED", APICULA),
+        Special(pins("27-35"), Kind.NEVER, "HDMI, 2.5 V", SIPEED4 + "camera_hdmi/src/dk_video.cst"),
+        Special(pins("13-23"), Kind.LOADED, "1.8 V", SIPEED4 + "key_blink/src/key_blink.cst, " + APICULA),
+        Special(pins("39-44 46"), Kind.SOCKET, "camera", SIPEED4 + "camera_hdmi/src/dk_video.cst"),
     ),
     "arty_a7": (
         Special(pins("C2"), Kind.LOADED, "USB-UART through JP2", DIGILENT),
