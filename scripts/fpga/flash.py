@@ -28,7 +28,7 @@ def command(on: Board, host: str, sram: bool) -> list[str]:
     if program is None:
         raise ProjectError(MISSING)
     place = [] if sram or on.family == "ice40" else ["--write-flash"]
-    return [program, "--board", on.loader, *place, project.relative(on.file(host))]
+    return [program, "--board", *on.loader.split(), *place, project.relative(on.file(host))]
 
 
 def complaint(output: str) -> str:

@@ -21,6 +21,8 @@ BOARDS = {
     "UX31": "ULX3S v3.1",
     "TN20": "Tang Nano 20K",
     "TN09": "Tang Nano 9K",
+    "TN04": "Tang Nano 4K",
+    "CL70": "Colorlight 5A-75B V7.0",
     "VIRT": "virtual board",
     "MODL": "golden model",
 }

@@ -37,7 +37,7 @@ LANGUAGES = {
 KEYS = {
     "board": (
         "title place chip family clock leds uart pads headers parts",
-        "revisions code devices vendor suffix loader port reset ties defaults statements",
+        "revisions code devices vendor suffix loader port reset ties defaults statements buffers",
     ),
     "device": ("title device route", "chip"),
     "vendor": ("tool device", "family grade target"),
@@ -49,6 +49,7 @@ KEYS = {
     "line": ("pin what", ""),
     "tie": ("pin level what reason", ""),
     "pads": ("standard", "drive exceptions"),
+    "buffers": ("level inputs", ""),
     "statements": ("reason lines", ""),
     "part": ("mhz hosts pins", "of goal recipe pll set omit low note leds"),
 }
@@ -131,6 +132,7 @@ class Description:
     loader: str = ""
     port: str = ""
     defaults: Mapping[str, Any] = field(default_factory=dict)
+    buffers: Mapping[str, str] = field(default_factory=dict)  # empty if the headers lead to the FPGA
 
     @property
     def source(self) -> str:
@@ -227,7 +229,7 @@ def load(path: Path) -> Description:
         checked(f"{where}: uart: {line}", "line", keys["uart"][line])
     for tie, found in keys.setdefault("ties", {}).items():
         checked(f"{where}: ties: {tie}", "tie", found)
-    for section in ("vendor", "statements"):
+    for section in ("vendor", "statements", "buffers"):
         keys[section] = checked(f"{where}: {section}", section, keys[section]) if section in keys else {}
     devices = [
         Device(name=str(known), **{**checked(f"{where}: devices: {known}", "device", found)})

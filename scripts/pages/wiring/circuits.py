@@ -83,11 +83,23 @@ class Use:
     circuit: Circuit
     pads: tuple[Pad, ...]
     strong: bool
+    buffered: str = ""  # level of the outputs, if the board has buffers before its headers
 
     @property
     def resistor(self) -> str:
         """Value of the resistors on the FPGA's side."""
         return STRONG if self.strong else WEAK
+
+    def pull(self, pad: Pad) -> str:
+        """Return the level to which a resistor pulls the header pin; "" without one.
+
+        A buffer of the board always drives its outputs, so that a resistor has no effect.
+        """
+        return "" if self.buffered and pad.way == "out" else text(self.circuit.pull, pad)
+
+    def level(self, pad: Pad) -> str:
+        """Return the level at the header pin."""
+        return self.buffered if self.buffered and pad.way == "out" else "3.3 V"
 
     def number(self, of: int | str) -> int:
         """Return a quantity of circuits.yml as a number; a word represents the number of pins or of chips."""
@@ -107,6 +119,8 @@ def _circuit_of(fitted: Fitted, pad: Pad) -> str:
     if port == "int_n" and "spi" in fitted.on.hosts:
         return "spi"
     found = next((one.key for one in CIRCUITS if port in one.ports.split()), None)
+    if found == "outputs" and fitted.board.buffers:
+        return "outputs_buffered"
     if found is None:
         raise ValueError(
             f"{fitted.board.name} {fitted.on.name}: {pad.bit} has no circuit; add it to scripts/pages/wiring"
@@ -128,7 +142,8 @@ def uses(fitted: Fitted) -> list[Use]:
             key=lambda pad: int(pad.bit.rstrip("]").rpartition("[")[2]) if "[" in pad.bit else 0
         )
     strong = fitted.board.family in STRONG_FPGA
-    return [Use(one, tuple(pads[one.key]), strong) for one in CIRCUITS if one.key in pads]
+    level = fitted.board.buffers.get("level", "")
+    return [Use(one, tuple(pads[one.key]), strong, level) for one in CIRCUITS if one.key in pads]
 
 
 def order(found: list[Use]) -> list[tuple[int, str, str]]:
@@ -137,7 +152,7 @@ def order(found: list[Use]) -> list[tuple[int, str, str]]:
     for use in found:
         value = "2K2" if not use.strong else "1K"
         resistor = (f"{use.resistor}, at the FPGA's side (see the drawing)", f"CFR-25JB-52-{value}")
-        pulls = sum(bool(text(use.circuit.pull, pad)) for pad in use.pads)
+        pulls = sum(bool(use.pull(pad)) for pad in use.pads)
         for what, which, of in (*use.circuit.items, (*resistor, pulls), *use.circuit.modules):
             if number := use.number(of):
                 lines[what, which] += number

@@ -73,7 +73,7 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
     plain = use.circuit.chip in ("jumper", "header", "microcontroller")
     if use.circuit.chip in BEHIND:
         return _last(sheet, use, pads, y, height, name)
-    _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
+    _box(sheet, BOARD, y, WIRE - BOARD, height, _near_colour(use, pads[0]))
     _box(sheet, FAR, y, END - FAR, height, _far_colour(use))
     if not plain:
         _box(sheet, CHIP, y, OUT - CHIP, height, INK)
@@ -81,7 +81,7 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
     for row, pad in enumerate(pads):
         at = y - 0.45 - row * ROW
         _pin(sheet, pad, at)
-        _wire(sheet, WIRE, at, FAR if plain else CHIP, at, LOW)
+        _wire(sheet, WIRE, at, FAR if plain else CHIP, at, _near_colour(use, pad))
         if not plain:
             _channel(sheet, use, pad, row, at)
         _pull(sheet, use, pad, at)
@@ -92,13 +92,13 @@ def _chip(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, number: int) ->
 
 def _last(sheet: Any, use: Use, pads: tuple[Pad, ...], y: float, height: float, name: str) -> float:
     """Draw a module at the end of the wiring; return the y coordinate below it."""
-    _box(sheet, BOARD, y, WIRE - BOARD, height, LOW)
+    _box(sheet, BOARD, y, WIRE - BOARD, height, _near_colour(use, pads[0]))
     _box(sheet, CHIP, y, FAR + 0.6 - CHIP, height, INK)
     _text(sheet, CHIP + 0.2, y + 0.32, name, TEXT)
     for row, pad in enumerate(pads):
         at = y - 0.45 - row * ROW
         _pin(sheet, pad, at)
-        _wire(sheet, WIRE, at, CHIP, at, LOW)
+        _wire(sheet, WIRE, at, CHIP, at, _near_colour(use, pad))
         _pull(sheet, use, pad, at)
         _text(sheet, CHIP + 0.2, at, text(use.circuit.far, pad), SMALL)
     behind, level = BEHIND[use.circuit.chip]
@@ -135,7 +135,7 @@ def _channel(sheet: Any, use: Use, pad: Pad, row: int, at: float) -> None:
 
 def _pull(sheet: Any, use: Use, pad: Pad, at: float) -> None:
     """Write the values of the resistors on the FPGA's side on their wires; symbols would be too many."""
-    to = text(use.circuit.pull, pad)
+    to = use.pull(pad)
     if to:
         x = (WIRE + CHIP) / 2
         sheet.add(elm.Dot(radius=0.05).theta(0).at((x - 0.95, at)).color(LOW))
@@ -183,6 +183,10 @@ def _note(sheet: Any, use: Use, y: float) -> float:
         _text(sheet, BOARD, y + 0.2, use.circuit.note, SMALL)
         y -= 0.5
     return y - GAP
+
+
+def _near_colour(use: Use, pad: Pad) -> str:
+    return LOW if use.level(pad) == "3.3 V" else FIVE
 
 
 def _far_colour(use: Use) -> str:

@@ -25,12 +25,7 @@ For each part that the board carries, the page has a drawing, the levels and an 
 Before you connect a winding, read [Before the motor turns](../boards.md#10-before-the-motor-turns).
 These circuits were not built or tested.
 
-- **Every pin of a header is 3.3 V and must never carry more**: not 5 V, not the motor's supply, not through \
-a pull-up.
-  5 V and more are allowed only on the right side of the drawings, on the far side of the shifter, buffer, \
-optocoupler or driver.
-- A resistor of {resistor} at a wire connects the wire to GND or 3.3 V, on the FPGA's side of the circuit.
-  It holds the wire at a fixed level while the FPGA is not configured.
+{levels}
 - Build only the circuits that your machine needs; omit the components of other circuits from the order list.
   With `HOST=uart` nothing is connected to the bus pins.
 - Order numbers are examples of components that were sold when this page was written.
@@ -38,6 +33,23 @@ optocoupler or driver.
 
 Contents: {contents}
 """
+
+DIRECT = """\
+- **Every pin of a header is 3.3 V and must never carry more**: not 5 V, not the motor's supply, not through \
+a pull-up.
+  5 V and more are allowed only on the right side of the drawings, on the far side of the shifter, buffer, \
+optocoupler or driver.
+- A resistor of {resistor} at a wire connects the wire to GND or 3.3 V, on the FPGA's side of the circuit.
+  It holds the wire at a fixed level while the FPGA is not configured."""
+BUFFERED = """\
+- **Each header pin has a buffer, powered with {level}.** As sold, all header pins are outputs. \
+Never connect a voltage to an output.
+  The buffers always drive: before the FPGA is configured, the outputs have no defined level, and a resistor \
+does not change this.
+  Switch the motor's supply on only after the bitstream is loaded.
+- **The inputs work only after a change of the board**: {inputs}.
+  Without this change, an input reads as inactive. **No limit switch stops the motor then.**
+- A resistor of {resistor} at an input connects it to 3.3 V."""
 
 
 def pages() -> dict[Path, bytes]:
@@ -57,8 +69,9 @@ def _page(fitted: list[Fitted]) -> str:
     names = [one.on.name for one in fitted]
     resistor = uses(fitted[0])[0].resistor
     contents = " · ".join(f"[{_title(one)}](#{one.on.name})" for one in fitted)
+    levels = (BUFFERED if board.buffers else DIRECT).format(resistor=resistor, **board.buffers)
     head = HEAD.format(
-        title=board.title, revisions=board.revisions, name=board.name, resistor=resistor, contents=contents
+        title=board.title, revisions=board.revisions, name=board.name, levels=levels, contents=contents
     )
     assert len(set(names)) == len(names)
     return "\n".join([head, *(_section(one) for one in fitted)])
@@ -79,7 +92,8 @@ def _section(one: Fitted) -> str:
 
 def _levels(use: Use) -> tuple[str, ...]:
     pins = ", ".join(f"`{pad.where.split(',')[0]}`" for pad in use.pads)
-    far = use.circuit.level
-    never = "" if far.startswith(("3.3 V", "GND")) else f" **{far}**: never to the header"
-    here = "no voltage (see the drawing)" if use.circuit.key == "straps" else "3.3 V"
+    level = use.level(use.pads[0])
+    far = use.circuit.level if use.circuit.level != "3.3 V" else level
+    never = "" if far.startswith((level, "3.3 V", "GND")) else f" **{far}**: never to the header"
+    here = "no voltage (see the drawing)" if use.circuit.key == "straps" else level
     return use.circuit.title, f"{pins}: {here}", never.strip() or far

@@ -44,8 +44,11 @@ def pins(text: str) -> tuple[str, ...]:
 LITEX = "https://github.com/litex-hub/litex-boards/tree/master/litex_boards/platforms/"
 AMARANTH = "https://github.com/amaranth-lang/amaranth-boards/tree/main/amaranth_boards/"
 SIPEED9 = "https://github.com/sipeed/TangNano-9K-example/tree/main/spi_lcd/src/lcd114_test.cst"
+SIPEED4 = "https://github.com/sipeed/TangNano-4K-example/tree/main/"
 SIPEED = "https://github.com/sipeed/TangNano-20K-example/tree/main/"
 MISTERY_NANO = "https://github.com/harbaum/MiSTeryNano/tree/main/src/tang/nano20k/"
+CHUBBY75 = "https://github.com/q3k/chubby75/tree/master/5a-75b/hardware_V7.0.md"
+BUFFERS = CHUBBY75 + ", https://github.com/kittennbfive/5A-75B-tools/tree/master/buffer_overview"
 ULX3S = "https://github.com/emard/ulx3s/tree/master/"
 APICULA = "https://github.com/YosysHQ/apicula (pin functions of the package in its chip database)"
 DIGILENT = "https://digilent.com/reference/programmable-logic/arty-a7/reference-manual"
@@ -149,6 +152,37 @@ SPECIAL: dict[str, tuple[Special, ...]] = {
             LITEX + "sipeed_tang_nano_9k.py, " + SIPEED9,
         ),
         Special(pins("53-57"), Kind.SOCKET, "LCD, configuration", APICULA),
+    ),
+    "colorlight_v70": (
+        Special(pins("N8 T7 T8"), Kind.NEVER, "configuration flash", AMARANTH + "colorlight_5a75b_r7_0.py"),
+        Special(pins("M8 M9 T6 R6"), Kind.NEVER, "configuration", CHUBBY75),
+        Special(pins("P5"), Kind.LOADED, "reset of the Ethernet chips", CHUBBY75),
+        Special(
+            pins("M1 N1 M5 N5 M6 N6 M16 P13 N13 P14 M15 L15 T2"),
+            Kind.DRIVEN,
+            "Ethernet chips",
+            AMARANTH + "colorlight_5a75b_r7_0.py",
+        ),
+        Special(pins("M13"), Kind.LOADED, "button J28", CHUBBY75),
+        Special(pins("P11"), Kind.LOADED, "LED", CHUBBY75),
+        Special(
+            pins(
+                "F3 F1 G3 G2 H3 H5 J4 K3 G1 K4 C2 E3 H4 K5 P1 R1 L5 F2 P4 R2 H13 J13 H12 G14 H14 G15 "
+                "A15 F16 A14 E13 B14 A13"
+            ),
+            Kind.LOADED,
+            "74HC245 to the header",
+            BUFFERS,
+        ),
+        Special(pins("M11 N11 P12 K15 N12 L16 K16 J15"), Kind.LOADED, "74HC245 U9 to the header", BUFFERS),
+    ),
+    "tangnano4k": (
+        Special(pins("1 2 47 48"), Kind.NEVER, "configuration flash", LITEX + "sipeed_tang_nano_4k.py"),
+        Special(pins("3 4 6-9"), Kind.NEVER, "JTAG, JTAGSEL_N, DONE", APICULA),
+        Special(pins("10"), Kind.NEVER, "MODE1, LED", APICULA),
+        Special(pins("27-35"), Kind.NEVER, "HDMI, 2.5 V", SIPEED4 + "camera_hdmi/src/dk_video.cst"),
+        Special(pins("13-23"), Kind.LOADED, "1.8 V", SIPEED4 + "key_blink/src/key_blink.cst, " + APICULA),
+        Special(pins("39-44 46"), Kind.SOCKET, "camera", SIPEED4 + "camera_hdmi/src/dk_video.cst"),
     ),
     "arty_a7": (
         Special(pins("C2"), Kind.LOADED, "USB-UART through JP2", DIGILENT),

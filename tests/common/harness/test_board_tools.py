@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from cocotb_tests.harness import project
+from scripts.fpga import flash as flash_module
 from scripts.fpga.flow import boards
 from scripts.fpga.flow.boards import BOARDS
 
@@ -92,6 +93,15 @@ def test_flash_names_board_and_file(built: Path, tmp_path: Path) -> None:
     assert words[:3] == ["--board", "tangnano9k", "--write-flash"]
     assert words[3:] == ["build/boards/tangnano9k/tangnano9k.fs"]
     assert "; for the board in Sipeed's examples" in " ".join(done.stdout.split())
+
+
+def test_flash_with_options_of_the_board(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The loader of a board without USB gets the cable and the other options of board.yml."""
+    loader(tmp_path, "exit 0")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    words = flash_module.command(BOARDS["colorlight-v70"], "uart", sram=False)
+    assert words[1:6] == ["--board", "colorlight", "--cable", "ft232", "--unprotect-flash"]
+    assert words[6:] == ["--write-flash", "build/boards/colorlight-v70/colorlight-v70.bit"]
 
 
 @pytest.mark.parametrize("module", ["scripts.fpga.bitstream", "scripts.fpga.flash"])

@@ -21,6 +21,8 @@ OSCILLATORS = {
     "icestick": ("clk_12m", 12),
     "ulx3s": ("clk_25m", 25),
     "ulx3s_v31": ("clk_25m", 25),
+    "colorlight_v70": ("clk_25m", 25),
+    "tangnano4k": ("clk_27m", 27),
     "tangnano9k": ("clk_27m", 27),
     "tangnano20k": ("clk_27m", 27),
     "arty_a7": ("clk", 100),

@@ -36,7 +36,7 @@ WRONG = {
         for goal, more in (("board", ""), ("bitstream", ""), ("flash", ""), ("demo", ""), ("soak", ",all"))
     },
     "trace PART=ppmc312-serial": "PART=ppmc312-serial: no such part (known: ppmc104,",
-    "bitstream BOARD=ulx3s": "BOARD=ulx3s: no such board (known: icebreaker,",
+    "bitstream BOARD=ulx3s": "BOARD=ulx3s: no such board (known: ",
     "bitstream HOST=spi": "HOST=spi: icebreaker with ppmc104 has only uart,bus; choose one of these",
     "flash HOST=bus BOARD=tangnano9k PART=bank": "HOST=bus: tangnano9k with bank has only uart,spi; choose",
     "demo test T=a,,b": "T=a,,b: expected parts of test names",

@@ -7,6 +7,10 @@ import re
 import pytest
 
 from cocotb_tests.harness import project
+from scripts.fpga.boards.__main__ import fitted_parts
+from scripts.fpga.boards.description import load_all
+from scripts.fpga.boards.pads import Fitted
+from scripts.pages.wiring.circuits import uses
 
 PAGES = sorted(
     [*project.DOCS.glob("*/replace.md"), *(project.DOCS / name for name in ("boards.md", "ppmc2104/isa.md"))]
@@ -94,3 +98,22 @@ def test_readme_states_what_was_not_done() -> None:
         "What was done:",
     ):
         assert words in text
+
+
+@pytest.mark.parametrize("one", fitted_parts(load_all()), ids=lambda one: f"{one.board.name}-{one.on.name}")
+def test_levels_of_header_pins(one: Fitted) -> None:
+    """Outputs have the level of the board's buffers, and no resistor there; every other pin has 3.3 V."""
+    level = one.board.buffers.get("level", "3.3 V")
+    for use in uses(one):
+        for pad in use.pads:
+            output = pad.way == "out"
+            assert use.level(pad) == (level if output else "3.3 V"), pad.bit
+            assert not (output and one.board.buffers and use.pull(pad)), pad.bit
+
+
+def test_buffered_inputs_are_documented() -> None:
+    """The page of a board with buffers states that no limit switch works before the change of the board."""
+    (name,) = (board.name for board in load_all() if board.buffers)
+    page = (project.DOCS / "boards" / f"{name}.md").read_text()
+    assert "The inputs work only after a change of the board" in page
+    assert "No limit switch stops the motor then." in page
