@@ -36,6 +36,10 @@ BANK = Part.of_shape(
     clock="",
     defaults={"AXES": 32, "PHASE_IDLE": 1},
     idle={"PHASE_IDLE": "s"},
+    stages={
+        "u_sync": ("alm_n", "cnp_n", "l4_n", "l3_n", "l2_n", "l1_n"),
+        "u_window.u_sync": ("cs_n", "rd_n", "wr_n", "a", "d_i"),
+    },
 )
 PARTS = (BANK,)
 

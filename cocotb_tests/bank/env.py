@@ -62,7 +62,14 @@ class WindowBus(HostBus):
     names = NAMES
 
     def __init__(self, bench: DutBench, axis: int = 0, pause: Callable[[], int] | None = None) -> None:
-        super().__init__(bench, 2, 6, 3, pause=pause, lead=1, base=axis << 4)
+        super().__init__(bench, 2, 6, 3, pause=pause, lead=1 + bench.slack, base=axis << 4)
+
+    async def write(self, reg: int, byte: int, strobe: int | None = None, gap: int | None = None) -> int:
+        """Do the same as the base class; with JITTER=1, return the edge that first samples the end."""
+        edge0 = await super().write(reg, byte, strobe, gap)
+        if self.bench.slack:
+            edge0 = min(self.bench.pin_edges(pin, 1, edge0)[0] for pin in ("cs_n", "wr_n"))
+        return edge0
 
 
 class Axis(AxisDriver):
@@ -266,20 +273,23 @@ class Env:
         edge0 = edge - WRITE_EVENT
         return self.bench.drive(
             [
-                (edge0 - 3, {"a": address}),
+                (edge0 - 2 - self.host.lead, {"a": address}),
                 (edge0 - 2, {"cs_n": 0, "wr_n": 0, "d_i": byte}),
                 (edge0, {"cs_n": 1, "wr_n": 1}),
             ]
         )
 
-    async def write_at(self, edge: int, address: int, byte: int) -> None:
-        """Write a byte with its write event on edge `edge`; return when the next access may begin."""
-        await self.bench.until(edge - WRITE_EVENT - 3)
-        await self.host.write(address, byte)
+    async def write_at(self, edge: int, address: int, byte: int) -> int:
+        """Write a byte with its write event on edge `edge`; return when the next access may begin.
+
+        The result is the edge of the write event: with JITTER=1, `edge` or one cycle later.
+        """
+        await self.bench.until(edge - WRITE_EVENT - 2 - self.host.lead)
+        return await self.host.write(address, byte) + WRITE_EVENT
 
     async def as_of(self, edge: int, address: int) -> int:
         """Read a register; return the value that it has just after edge `edge` (BANK-WIN-05)."""
-        await self.bench.until(edge - SNAPSHOT - 1)
+        await self.bench.until(edge - SNAPSHOT - self.host.lead)
         return await self.host.read(address)
 
     async def quiet(self, axes: Iterable[Axis]) -> None:

@@ -48,15 +48,15 @@ async def bank_hsk_01_seven_clk(dut):
         for early in (8, 7, 6, 1, 0):
             ccw = 1 - axis.level("dir")
             visit = axis.visit(env.bench.now + 50)
-            await env.write_at(visit - early, axis.n << 4 | STATUS, 0x42 | ccw << 3)
+            event = await env.write_at(visit - early, axis.n << 4 | STATUS, 0x42 | ccw << 3)
             await axis.host.poll(IBF | BUSY, 0)
-            want = visit + (env.round if early < 7 else 0)
+            want = visit + (env.round if event > visit - 7 else 0)
             got = axis.edges("dir", visit - 9)
             env.check("BANK-HSK-01", f"start of {axis.n}, w = V - {early}", got, [(want, ccw)])
             env.check("BANK-MOT-01", "pulse 1", axis.edges("pout_n", visit)[0][0], want + env.cfg.w)
 
 
-@directed("BANK-HSK-03", builds=(B8, B32))
+@directed("BANK-HSK-03", builds=(B8, B32), exact="a write must be accepted in a given cycle")
 async def bank_hsk_03_replaced(dut):
     """Of two bytes written before a visit V, the visit accepts the newer one if it was written at V - 7 or
     earlier, else the older one (BANK-HSK-03).

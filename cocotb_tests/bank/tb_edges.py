@@ -26,7 +26,7 @@ def blip(axis: Axis, edge: int, **pins: int) -> None:
     axis.at(edge - SYNC + 1, **{name: 1 - level for name, level in pins.items()})
 
 
-@directed("BANK-MOT-02", "BANK-MOT-03", builds=(B8, B32))
+@directed("BANK-MOT-02", "BANK-MOT-03", builds=(B8, B32), exact="a write must be accepted in a given cycle")
 async def bank_mot_03_requests_around_an_end(dut):
     """If an alarm causes the end of a motion on edge e, command 0x41 and a slow-down limit still set their
     finish bits at visits up to e + 4. An immediate stop sets its bit at visit e, but not at visits e + 1 to e
@@ -54,7 +54,7 @@ async def bank_mot_03_requests_around_an_end(dut):
         env.check("BANK-MOT-03", what, await axis.finish(), 0x80 | code & 7 | alarm | bit)
 
 
-@directed("BANK-MOT-05", builds=(B8, B32))
+@directed("BANK-MOT-05", builds=(B8, B32), exact="a write must be accepted in a given cycle")
 async def bank_mot_05_slow_down_limit_with_a_stop(dut):
     """The visit that accepts 0x40 ignores a slow-down limit; the visit that accepts 0x41 also accepts the
     limit and sets both finish bits (BANK-MOT-05)."""
@@ -75,7 +75,7 @@ async def bank_mot_05_slow_down_limit_with_a_stop(dut):
         env.check("BANK-MOT-05", what, await axis.finish(), 0x86 | bits)
 
 
-@directed("BANK-GRP-04", builds=(B8, B32, F100))
+@directed("BANK-GRP-04", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle")
 async def bank_grp_04_causes_of_a_start_after_stop(dut):
     """If STOP is written at g and an operation starts at a visit from g to g + R, the operation ends on the
     next edge with finish bit 6. An alarm or limit that is active on that edge also sets its bit
@@ -102,7 +102,7 @@ async def bank_grp_04_causes_of_a_start_after_stop(dut):
         axis.set(**{pin: 1})
 
 
-@directed("BANK-GRP-03", builds=(B8, B32, B64))
+@directed("BANK-GRP-03", builds=(B8, B32, B64), exact="a write must be accepted in a given cycle")
 async def bank_grp_03_a_waiting_go_begins_at_g_plus_r(dut):
     """A GO written at g + 1 to g + R, where g is the write event of another GO, takes effect as if written on
     edge g + R; a later GO takes effect on its own write event (BANK-GRP-03)."""
@@ -156,7 +156,13 @@ def build_cycles(slow: int, fast: int) -> int:
     return 1954 + 136 * (slow - fast) if slow > fast else 3
 
 
-@directed("BANK-INI-01", "BANK-INI-02", "BANK-CHP-01", builds=(B4, B8, B32, B64, F100))
+@directed(
+    "BANK-INI-01",
+    "BANK-INI-02",
+    "BANK-CHP-01",
+    builds=(B4, B8, B32, B64, F100),
+    exact="a register must be read in a given cycle",
+)
 async def bank_ini_01_duration_of_a_build(dut):
     """A table is complete B cycles after the visit of the last byte: B = 1954 + 136 (RL - RH), or 3 if RL =
     RH. The first visit at least 3 cycles later completes the initialisation and starts the chopper; the next
@@ -189,7 +195,7 @@ async def bank_ini_01_duration_of_a_build(dut):
         await axis.command(0xC0)  # excitation off: no more edges of this chopper
 
 
-@directed("BANK-GRP-02", "BANK-INI-02", builds=(B8, B32))
+@directed("BANK-GRP-02", "BANK-INI-02", builds=(B8, B32), exact="a write must be accepted in a given cycle")
 async def bank_grp_02_go_while_an_axis_is_initialised(dut):
     """While the table of an axis is built, the axis rejects GO. The error is 2 during the first
     initialisation, up to the visit that completes it, and 0 during later ones. The initialisation completes

@@ -42,7 +42,7 @@ async def bank_grp_02_all_on_one_edge(dut):
             env.check("BANK-GRP-04", "finish status", await axis.finish(), 0xC5)
 
 
-@directed("BANK-GRP-01", builds=(B8, B32, F100))
+@directed("BANK-GRP-01", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle")
 async def bank_grp_01_mask_of_a_start(dut):
     """An operation that starts at visit V is held if the MASK bit was written at w = V - 5 or earlier
     (BANK-GRP-01).
@@ -101,7 +101,7 @@ async def bank_grp_02_refused(dut):
     env.check("BANK-GRP-02", "the busy axis continues", await busy.status() & BUSY, BUSY)
 
 
-@directed("BANK-GRP-02", builds=(B8, B32, F100))
+@directed("BANK-GRP-02", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle")
 async def bank_grp_02_which_visit(dut):
     """A GO written at g takes effect at the first visit at g + 5 or later, for operations that started at an
     earlier visit (BANK-GRP-02).
@@ -130,7 +130,7 @@ async def bank_grp_02_which_visit(dut):
         await axis.finish()
 
 
-@directed("BANK-GRP-03", builds=(B8, B32, B64))
+@directed("BANK-GRP-03", builds=(B8, B32, B64), exact="a write must be accepted in a given cycle")
 async def bank_grp_03_second_go_waits(dut):
     """A GO written while another GO is active takes effect R cycles after the first; a third GO has no effect
     (BANK-GRP-03).
@@ -158,7 +158,9 @@ async def bank_grp_03_second_go_waits(dut):
                 await axis.finish()
 
 
-@directed("BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64))
+@directed(
+    "BANK-GRP-03", "BANK-GRP-02", builds=(B8, B32, B64), exact="a write must be accepted in a given cycle"
+)
 async def bank_grp_03_mask_during_go(dut):
     """While GO is active, each visit uses the value that MASK had 5 cycles before the visit (BANK-GRP-03)."""
     env = await Env.start(dut)
@@ -200,11 +202,11 @@ async def bank_grp_01_held_is_watched(dut):
     for pin, finish in (("l1_n", 0x90), ("alm_n", 0xA0)):
         await axis.go(0x46)
         axis.at(env.bench.now + 3, **{pin: 0})
-        axis.at(env.bench.now + 4, **{pin: 1})
+        axis.at(env.bench.now + 4 + env.bench.slack, **{pin: 1})
         await ends(pin, 0x46, finish)
     await axis.go(0x47, rate=1)
     axis.at(env.bench.now + 3, cnp_n=0)
-    axis.at(env.bench.now + 4, cnp_n=1)
+    axis.at(env.bench.now + 4 + env.bench.slack, cnp_n=1)
     await ends("origin", 0x47, 0x80)
     for code in (0x42, 0x46):
         await axis.go(code)
@@ -218,7 +220,7 @@ async def bank_grp_01_held_is_watched(dut):
     await ends("0x41", 0x42, 0xC0)
 
 
-@directed("BANK-GRP-04", builds=(B8, B32, F100))
+@directed("BANK-GRP-04", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle")
 async def bank_grp_04_starts_around_stop(dut):
     """A STOP written at g ends operations that start at visits up to g + R, but no later operation
     (BANK-GRP-04).
@@ -261,7 +263,9 @@ async def bank_grp_04_all_at_once(dut):
     await env.bench.clocks(SYNC)
 
 
-@directed("BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100))
+@directed(
+    "BANK-GRP-03", "BANK-GRP-02", builds=(B32, B64, F100), exact="a write must be accepted in a given cycle"
+)
 async def bank_grp_03_third_go(dut):
     """A third GO has no effect if it is written before g + R. At g + R or later, while the second GO is
     active, it waits for the end of the second GO (BANK-GRP-03).

@@ -71,7 +71,9 @@ async def bank_mot_01_another_ramp(dut):
             await env.axes[n].finish()
 
 
-@directed("BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100))
+@directed(
+    "BANK-MOT-01", "BANK-GEN-04", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle"
+)
 async def bank_mot_01_slow_clocks(dut):
     """For all values of csel and vsel, the intervals are those of the PPMC-104. The values that were written
     7 cycles or more before the start apply (BANK-MOT-01, BANK-GEN-04).
@@ -117,7 +119,7 @@ async def bank_mot_01_steep_ramp_of_slow_clocks(dut):
         await axis.finish()
 
 
-@directed("BANK-MOT-04", builds=(B4, B8, B32, F100))
+@directed("BANK-MOT-04", builds=(B4, B8, B32, F100), exact="a register must be read in a given cycle")
 async def bank_mot_04_busy_falls(dut):
     """After a complete move, BUSY falls at the first visit V after the last low time (BANK-MOT-04).
 
@@ -136,7 +138,9 @@ async def bank_mot_04_busy_falls(dut):
             await axis.finish()
 
 
-@directed("BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100))
+@directed(
+    "BANK-MOT-03", "BANK-MOT-04", builds=(B8, B32, F100), exact="a register must be read in a given cycle"
+)
 async def bank_mot_04_cut_while_high(dut):
     """If a limit is detected on edge e while pout_n is high, BUSY falls at the first visit at e + 5 or later
     (BANK-MOT-04).
@@ -159,7 +163,7 @@ async def bank_mot_04_cut_while_high(dut):
             env.check("BANK-MOT-02", "finish status", await axis.finish(), 0x95)
 
 
-@directed("BANK-MOT-03", builds=(B8, B32))
+@directed("BANK-MOT-03", builds=(B8, B32), exact="a write must be accepted in a given cycle")
 async def bank_mot_03_byte_before_it_is_known(dut):
     """A Decelerating Stop that is accepted before the visit that detects the end has the same effect as
     during a motion (BANK-MOT-03).
@@ -180,7 +184,7 @@ async def bank_mot_03_byte_before_it_is_known(dut):
         env.check("BANK-MOT-03", "finish status", await axis.finish(), 0x96 | 0 if error else 0x96 | 0x40)
 
 
-@directed("BANK-MOT-05", builds=(B8, B32, F100))
+@directed("BANK-MOT-05", builds=(B8, B32, F100), exact="only one visit may sample the limit")
 async def bank_mot_05_slow_down_limit(dut):
     """A slow-down limit that was detected on edge V - 4 takes effect at visit V; a limit that was detected on
     edge V - 3 does not (BANK-MOT-05).
@@ -203,7 +207,13 @@ async def bank_mot_05_slow_down_limit(dut):
             await axis.halt()
 
 
-@directed("BANK-MOT-05", "P104-LIM-09", "P104-FDC-05", builds=(B8, B32))
+@directed(
+    "BANK-MOT-05",
+    "P104-LIM-09",
+    "P104-FDC-05",
+    builds=(B8, B32),
+    exact="the switches must be sampled at the same edge",
+)
 async def bank_mot_05_only_the_first_request(dut):
     """A slow-down limit sets no bit if a command or the count has already begun the deceleration, or if the
     visit that samples the limit has detected an end (BANK-MOT-05).
@@ -237,7 +247,9 @@ async def bank_mot_05_only_the_first_request(dut):
         await axis.result(f"BANK-MOT-03, V - {early}, {plus}", 6, 0x9E if early == 4 else 0x96)
 
 
-@directed("BANK-MOT-05", "BANK-MOT-02", builds=(B8, B32, F100))
+@directed(
+    "BANK-MOT-05", "BANK-MOT-02", builds=(B8, B32, F100), exact="a write must be accepted in a given cycle"
+)
 async def bank_mot_05_which_pulse_counts(dut):
     """A deceleration flag set at visit V takes effect for a pulse on edge V and for later ones
     (BANK-MOT-05).
@@ -264,7 +276,13 @@ async def bank_mot_05_which_pulse_counts(dut):
             await axis.finish()
 
 
-@directed("BANK-MOT-02", "BANK-WIN-07", "BANK-MOT-03", builds=(B8, B32, F100))
+@directed(
+    "BANK-MOT-02",
+    "BANK-WIN-07",
+    "BANK-MOT-03",
+    builds=(B8, B32, F100),
+    exact="a register must be read in a given cycle",
+)
 async def bank_mot_02_pulse_cancelled(dut):
     """If a counted pulse is suppressed, the position is corrected when the end is detected
     (BANK-WIN-07).

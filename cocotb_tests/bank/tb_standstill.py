@@ -42,7 +42,7 @@ async def bank_chp_01_phases(dut):
         env.check("BANK-CHP-01", "the next", on, (off[0] + OFF * quantum, 0b00110))
 
 
-@directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100))
+@directed("BANK-CHP-01", "BANK-GEN-04", builds=(B8, F100), exact="a write must be accepted in a given cycle")
 async def bank_chp_01_settings(dut):
     """Parameters and vsel set the durations of the chopper phases as the rules state. vsel applies to a phase
     if it was written 7 cycles or more before the visit that schedules the first edge of the phase
@@ -84,7 +84,9 @@ async def bank_chp_01_settings(dut):
         env.check("BANK-GEN-04", f"phase, vsel {early} cycles before", nexts[1] - nexts[0], want)
 
 
-@directed("BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100))
+@directed(
+    "BANK-CHP-01", "BANK-HSK-02", builds=(B8, B32, F100), exact="a register must be read in a given cycle"
+)
 async def bank_hsk_02_chopper_takes_the_visit(dut):
     """A visit that schedules an edge of the chopper does not accept a waiting byte; the next visit accepts it
     (BANK-HSK-02).

@@ -95,7 +95,7 @@ async def bank_win_03_registers_of_the_bank(dut):
     env.check("BANK-WIN-03", "int_n", env.bench.level("int_n"), 1)
 
 
-@directed("BANK-WIN-04", "BANK-HSK-04", builds=(B8, F100))
+@directed("BANK-WIN-04", "BANK-HSK-04", builds=(B8, F100), exact="a strobe must be sampled for 1 or 2 cycles")
 async def bank_win_04_short_reads(dut):
     """During read strobes of 1 and 2 cycles, d_o keeps the byte of the previous read, and no byte is
     consumed (BANK-WIN-04).
@@ -114,7 +114,7 @@ async def bank_win_04_short_reads(dut):
     env.check("BANK-WIN-04", "OBF", await axis.status() & OBF, 0)
 
 
-@directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32))
+@directed("BANK-WIN-04", "BANK-WIN-06", builds=(B8, B32), exact="a level of one cycle may not be sampled")
 async def bank_win_04_irregular_strobes(dut):
     """Bytes of 1-cycle writes, of accesses with both strobes asserted and of strobes without cs_n are either
     written completely or not at all (BANK-WIN-04).
@@ -142,15 +142,21 @@ async def bank_win_05_read_to_the_clk(dut):
     for length in (6, 9):
         for register in (INFO, MAP):
             await bench.clocks(20)
-            start = bench.now + 1
+            driven = bench.now + env.host.lead
             value = await env.host.read(register, strobe=length)
             await bench.clocks(20)
-            want = [(start + 2, 1), (start + length + 2, 0)]
+            start, end = (
+                of(bench.pin_edges(pin, level, driven)[0] for pin in ("cs_n", "rd_n"))
+                for level, of in ((0, max), (1, min))
+            )
+            want = [(start + 2, 1), (end + 2, 0)]
             env.check("BANK-WIN-05", "d_oe", bench.edges("d_oe", start), want)
             env.check("BANK-WIN-05", "d_o", bench.edges("d_o", start), [(start + 4, value)])
 
 
-@directed("BANK-WIN-05", "BANK-HSK-04", builds=(B8, B32, F100))
+@directed(
+    "BANK-WIN-05", "BANK-HSK-04", builds=(B8, B32, F100), exact="a register must be read in a given cycle"
+)
 async def bank_win_05_snapshot(dut):
     """A read returns the state after its edge 2 (BANK-WIN-05).
 
@@ -168,7 +174,7 @@ async def bank_win_05_snapshot(dut):
             await axis.idle()
 
 
-@directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100))
+@directed("BANK-WIN-06", "BANK-HSK-01", builds=(B8, F100), exact="the data change with the end of the strobe")
 async def bank_win_06_last_sample(dut):
     """If d_i changes during the strobe, the value of the last sample with the strobe is written. The write
     event is on edge 2 after the first edge that samples the strobe inactive (BANK-WIN-06).
@@ -223,7 +229,7 @@ async def bank_win_07_position_counts(dut):
     env.check("BANK-WIN-07", "position after reset", await axis.position(), 0)
 
 
-@directed("BANK-WIN-07", builds=(B8, F100, B32))
+@directed("BANK-WIN-07", builds=(B8, F100, B32), exact="a register must be read in a given cycle")
 async def bank_win_07_counted_at_the_visit(dut):
     """The position register includes a pulse on edge e from the last visit at or before e on (BANK-WIN-07).
 
@@ -281,7 +287,12 @@ async def bank_win_08_interrupts(dut):
     env.check("BANK-WIN-08", "int_n", env.bench.level("int_n"), 1)
 
 
-@directed("BANK-WIN-05", "BANK-WIN-08", builds=(B4, B8, B16, B32, B64))
+@directed(
+    "BANK-WIN-05",
+    "BANK-WIN-08",
+    builds=(B4, B8, B16, B32, B64),
+    exact="a register must be read in a given cycle",
+)
 async def bank_win_08_map_to_the_cycle(dut):
     """A read of the map returns each bit as it is after edge 2 of the read. This holds at each address of the
     byte, and for each distance between the read and a visit that sets or clears bits (BANK-WIN-05,
@@ -322,7 +333,7 @@ async def _map_near_visits(env: Env, axes: list[Axis], address: int, step: int) 
         env.check("BANK-WIN-08", what, got, before if offset < 0 else left)
 
 
-@directed("BANK-GEN-05", builds=(B8, B4, B32, B64))
+@directed("BANK-GEN-05", builds=(B8, B4, B32, B64), exact="a register must be read in a given cycle")
 async def bank_gen_05_not_ready(dut):
     """From a reset until edge R + 7, status reads as 02, all other registers read as 00, and writes have no
     effect (BANK-GEN-05).

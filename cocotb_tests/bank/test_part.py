@@ -19,6 +19,7 @@ ITEMS = cocotb_items(
     "tb_limits",
     "tb_standstill",
     "tb_edges",
+    "tb_delays",
     part=BANK,
 )
 

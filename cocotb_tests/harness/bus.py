@@ -51,7 +51,7 @@ class DutHost:
 
     async def step(self) -> None:
         """Wait until the next event of the golden model is over: a useful moment for the next poll."""
-        edge = self.bench.golden.next_event
+        edge = self.bench.next_event
         assert edge is not None, f"the golden model has no further event\n{self.bench.context()}"
         await self.bench.until(max(self.t, edge + 1))
 

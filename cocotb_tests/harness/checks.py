@@ -9,6 +9,7 @@ from itertools import accumulate, cycle, islice
 from random import Random
 
 from .axis_driver import NO_PULSES_DONE, AxisDriver, Ramp, differences, forced, indices, rates
+from .dut_bench import DutBench
 
 # Intervals of this number of cycles or more must be exact to the cycle (P104-BCK-05).
 EXACT = 16
@@ -196,14 +197,27 @@ async def clock_delays(axis: AxisDriver, code: int = 0x44, rate: int | None = 0)
     return [t - max(edge for edge in rises if edge < t) for t in axis.pulses]
 
 
-def check_delays(axis: AxisDriver, rule: str, what: str, delays: Sequence[int], low: int, high: int) -> None:
+def check_delays(bench: DutBench, rule: str, what: str, delays: Sequence[int], low: int, high: int) -> None:
     """Check that the delays from pin changes to their effects are equal, and `low` to `high` cycles.
 
     With JITTER=1, two delays that differ by one cycle must occur instead.
     """
     spread = max(delays) - min(delays)
-    axis.check(rule, f"difference of the delays {what}", spread, axis.bench.slack)
-    axis.window(rule, f"shortest delay {what}", min(delays), low, high)
+    bench.check(rule, f"difference of the delays {what}", spread, bench.slack)
+    bench.check_window(rule, f"shortest delay {what}", min(delays), low, high)
+
+
+def check_intervals(bench: DutBench, rule: str, intervals: Sequence[int], expected: Sequence[int]) -> None:
+    """Check intervals of outputs that follow the edges of a clock pin.
+
+    With JITTER=1, each interval may differ by one cycle.
+    """
+    wrong = [
+        f"{got} instead of {want} cycles"
+        for got, want in zip(intervals, expected, strict=False)
+        if abs(got - want) > bench.slack
+    ]
+    bench.check(rule, f"{len(expected)} intervals", (len(intervals), wrong), (len(expected), []))
 
 
 BOTH = 0xB0

@@ -117,6 +117,13 @@ def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
     return bad
 
 
+def bytes_only(test: F) -> F:
+    """Mark a cocotb test that checks only bytes and messages, so that it also runs with JITTER=1."""
+    target: Any = getattr(test, "func", test)
+    target._openppmc_bytes_only = True
+    return test
+
+
 def probe(*paths: str) -> Callable[[F], F]:
     """Mark a cocotb test as a reader of these inner signals, which are paths below `dut`.
 
@@ -151,6 +158,8 @@ class Item:
         uncompared: reason why a directed test is not compared with the golden model ("" if it is compared);
             None for other tests.
         exact: reason why the test does not run with JITTER=1.
+        bytes_only: True if it checks only bytes and messages, so that it runs with JITTER=1 without a golden
+            model.
         shared: True if it may share a process with other tests of its module, although it is not a directed
             test.
     """
@@ -167,6 +176,7 @@ class Item:
     skipped: str = ""
     uncompared: str | None = None
     exact: str = ""
+    bytes_only: bool = False
     shared: bool = False
 
     @property
@@ -190,7 +200,9 @@ class Item:
         return replace(self, seed=seed)
 
 
-def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) -> list[Any]:
+def cocotb_items(
+    package: str, *modules: str, part: Part, shared: bool = False, bytes_only: bool = False
+) -> list[Any]:
     """Return a pytest.param for each test of `package`'s modules and each configuration that the test names.
 
     Raises ValueError if a module has no cocotb test or two tests share a name.
@@ -198,6 +210,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
     Args:
         shared: True if the tests of a module run in one process for each build. Each test must then begin
             with a reset.
+        bytes_only: see `Item`; also set for single tests by the decorator `bytes_only`.
     """
     params, seen = [], set()
     for name in modules:
@@ -215,6 +228,7 @@ def cocotb_items(package: str, *modules: str, part: Part, shared: bool = False) 
                         skipped="skip=True of cocotb.test()" if case.skip else "",
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
                         exact=getattr(test.func, "_openppmc_exact", ""),
+                        bytes_only=bytes_only or hasattr(test.func, "_openppmc_bytes_only"),
                         shared=shared,
                     )
                     if item.id in seen:

@@ -37,7 +37,13 @@ def jitters() -> bool:
 
 
 def is_jittered(item: Any) -> bool:
-    """Return whether a simulated test can run with JITTER=1: its device lists its synchronisers."""
+    """Return whether a simulated test can run with JITTER=1.
+
+    It can if it is compared with a golden model that receives the sampled levels, or if it checks only bytes
+    and messages of a host line.
+    """
+    if item.bytes_only:
+        return True
     if item.part not in PARTS or not PARTS[item.part].stages:
         return False
     exact = item.exact or PARTS[item.part].exact
@@ -77,6 +83,11 @@ class StageLog:
         self._last = {name: self._pins[port] for port, names in self._names.items() for name in names}
         self.changes = [Change(0, name, level) for name, level in self._last.items() if SECOND in name]
         self.late = self.prompt = 0
+
+    @property
+    def pending(self) -> int | None:
+        """First edge at which a changed pin is sampled later than the last call of `add`, or None."""
+        return self._checks[0][0] if self._checks else None
 
     def add(self, driven: Sequence[Change], rows: Mapping[str, Rows], now: int) -> None:
         """Process the driven changes that are new since the last call, up to edge `now` - 1.

@@ -23,6 +23,13 @@ DEFAULTS = {
 }
 
 LINES = frozenset({"scl_i", "sda_i"})
+STAGES = {
+    "u_pins": ("fset_n", "scl_i", "sda_i", "ext2", "ext1", "gpi"),
+    "u_serial.u_line": ("stage.rxd",),
+    "u_serial.u_rx.u_sync": ("rxd",),
+    "u_drive.u_bridge_a.u_cmp": ("cmp_a",),
+    "u_drive.u_bridge_b.u_cmp": ("cmp_b",),
+}
 
 PMC006 = Part.of_model(
     "pmc006",
@@ -31,6 +38,7 @@ PMC006 = Part.of_model(
     clock="",
     unwatched=frozenset({"pwm_a_ref", "pwm_b_ref"}),
     defaults=DEFAULTS,
+    stages=STAGES,
 )
 WITH_EEPROM = replace(
     PMC006,
@@ -38,6 +46,7 @@ WITH_EEPROM = replace(
     outputs={**PMC006.outputs, **dict.fromkeys(LINES, (1, 1))},
     fed=LINES,
     aside=frozenset({"ee_on"}),
+    stages={f"u_part.{path}": pins for path, pins in STAGES.items()},
 )
 """The part and its EEPROM in one top (eeprom_bench.sv), which drives the levels of the I2C lines."""
 PARTS = (PMC006,)

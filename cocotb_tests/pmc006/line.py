@@ -52,7 +52,7 @@ class Line:
         event of its golden model.
         """
         while self.now < t:
-            events = [bench.golden.next_event for bench in self.benches]
+            events = [bench.next_event for bench in self.benches]
             edge = min([t, *(event + 1 for event in events if event is not None)])
             for bench in self.benches:
                 await bench.until(edge)

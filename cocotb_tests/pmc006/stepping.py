@@ -32,7 +32,7 @@ class Stepping(Host):
         end = self.t + self.us(limit_us)
         await self.sync()
         while self.bench.level(signal) != level:
-            event = self.bench.golden.next_event
+            event = self.bench.next_event
             assert event is not None and event <= end, f"{signal} does not become {level}"
             await self.go(max(self.t, event + 1))
         return max((t for t, _ in self.edges(signal)[-1:]), default=0)
@@ -53,8 +53,7 @@ class _PartView:
     @property
     def next_event(self) -> int | None:
         """Next edge at which the part has an event."""
-        event: int | None = self._bench.golden.next_event
-        return event
+        return self._bench.next_event
 
     def run_until(self, t: int) -> None:
         """Not implemented: the host runs the part."""

@@ -83,7 +83,13 @@ async def p006_start_and_emergency_stop(dut: Any) -> None:
     assert replies[0] is False and replies[len(NEAR) - 1] is True and await host.position() == 0
 
 
-@directed("P006-STA-14", "P006-EXT-08", "P006-CMD-23", "P006-CMD-27")
+@directed(
+    "P006-STA-14",
+    "P006-EXT-08",
+    "P006-CMD-23",
+    "P006-CMD-27",
+    exact="a pin must be sampled once in each cycle around an instruction",
+)
 async def p006_flag_and_its_clearing(dut: Any) -> None:
     """If the flag of an EXT pin is set and cleared in the same cycle, it is set afterwards.
 
@@ -112,7 +118,12 @@ async def p006_flag_and_its_clearing(dut: Any) -> None:
         assert sum(seen) in (expected, expected + 1) and len(set(seen)) == 2
 
 
-@directed("P006-STA-15", "P006-CMD-30", "P006-CMD-52")
+@directed(
+    "P006-STA-15",
+    "P006-CMD-30",
+    "P006-CMD-52",
+    exact="an instruction must be executed in each cycle around a step",
+)
 async def p006_position_and_step(dut: Any) -> None:
     """No step is missed if the position is set a few cycles before, at or after a step."""
     host = await constant_speed_host(dut, 2500)
@@ -129,7 +140,13 @@ async def p006_position_and_step(dut: Any) -> None:
     assert await host.ask("I") == 0
 
 
-@directed("P006-MOT-42", "P006-STA-14", "P006-CMD-11", "P006-MOT-41")
+@directed(
+    "P006-MOT-42",
+    "P006-STA-14",
+    "P006-CMD-11",
+    "P006-MOT-41",
+    exact="an instruction must be executed in each cycle around the end of a motion",
+)
 async def p006_speed_mode_restarted_at_its_end(dut: Any) -> None:
     """If N 1 is sent before or at the edge at which the speed mode would end, the motion continues; after
     this edge, N 1 starts another motion.
@@ -235,7 +252,12 @@ async def p006_single_try_and_emergency_stop(dut: Any) -> None:
         assert await host.ask("b") == 0
 
 
-@directed("P006-BAD-12", "P006-EEP-22", "P006-EEP-20")
+@directed(
+    "P006-BAD-12",
+    "P006-EEP-22",
+    "P006-EEP-20",
+    exact="an instruction must be executed in each cycle around an event",
+)
 async def p006_restore_and_save(dut: Any) -> None:
     """If the FSET event occurs near instruction t (save), either the save and the factory restore are both
     executed, or t is rejected.

@@ -34,6 +34,7 @@ ITEMS = cocotb_items(
     "tb_collisions",
     "tb_resets",
     "tb_streams",
+    "tb_delays",
     part=PMC006,
 )
 

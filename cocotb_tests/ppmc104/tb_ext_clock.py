@@ -131,6 +131,6 @@ async def p104_port_02_delays(dut):
         ends.append(await env.wait_end() - stamp)
         env.bench.set(**{pin: 1})
         await env.finish()
-    check_delays(env, "P104-END-02", "from pin to int_n", ends, 2, 7)
+    check_delays(env.bench, "P104-END-02", "from pin to int_n", ends, 2, 7)
     await env.init(*EXTERNAL)
-    check_delays(env, "P104-BCK-04", "from clock to pout_n", await clock_delays(env), 2, 4)
+    check_delays(env.bench, "P104-BCK-04", "from clock to pout_n", await clock_delays(env), 2, 4)

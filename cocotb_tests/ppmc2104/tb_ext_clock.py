@@ -34,7 +34,7 @@ async def p2104_bck_04_sweep(dut: Any) -> None:
             await moves.check(move)
 
 
-@directed("P2104-TIM-05", builds=(F16, F8, F48), exact="it checks times that follow an edge of a pin")
+@directed("P2104-TIM-05", builds=(F16, F8, F48))
 async def p2104_tim_05_brisk_threshold(dut: Any) -> None:
     """At rate 0, the high time of the clock limits the low time only for periods below CYC(128)
     (P2104-TIM-05).

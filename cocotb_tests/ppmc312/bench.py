@@ -25,5 +25,21 @@ DEFAULTS = {
     "SND_WAIT": 0,
 }
 
-PPMC312 = Part.of_model("ppmc312", codes, styles=(STROBES_WE_OE,), clock="extck", defaults=DEFAULTS)
+PPMC312 = Part.of_model(
+    "ppmc312",
+    codes,
+    styles=(STROBES_WE_OE,),
+    clock="extck",
+    defaults=DEFAULTS,
+    stages={
+        "u_reset.u_pins": ("mode", "mod", "adr"),
+        "u_mailbox.u_bus.u_sync": ("cs_n", "we_n", "oe_n", "rs", "d_i"),
+        "u_serial.u_rx.u_sync": ("rxd",),
+        "u_pins.u_sync": (
+            *("auxi", "run", "epin", "epdir", "evt1_n", "evt0_n"),
+            *("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n"),
+        ),
+        "u_core.u_axis.u_motion.u_interval.u_sync": ("extck",),
+    },
+)
 PARTS = (PPMC312,)

@@ -62,7 +62,7 @@ class Host(DirectedHost):
         value = bench.level("d_o")
         bench.accesses.append(Access(edge, NAMES.get(("read", reg), "read"), reg, value))
         bench.set(cs_n=1, oe_n=1)
-        await bench.clocks(3)
+        await bench.clocks(3 + bench.slack)
         return value
 
     async def strobe(self, length: int, gap: int = 3, **levels: int) -> None:

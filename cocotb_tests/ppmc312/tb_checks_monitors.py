@@ -55,7 +55,8 @@ async def p312_a_report_that_is_not_true_any_more_vanishes(dut: Any) -> None:
     await host.issue(message(Code.VERSION))
     await host.wait()
     for epdir in (0, 0, 0, 1):
-        await host.pins(epin=1, epdir=epdir)
+        await host.pins(epdir=epdir)
+        await host.pins(epin=1)
         await host.pause(4)
         await host.pins(epin=0)
         await host.pause(4)

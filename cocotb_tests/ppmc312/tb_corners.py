@@ -264,7 +264,8 @@ async def p312_distance_wraps(dut: Any) -> None:
     )
     await host.ask(message(Code.ENCODE, "03 0005"))
     assert await host.quiet(100)
-    await host.pins(epin=1, epdir=1)
+    await host.pins(epdir=1)
+    await host.pins(epin=1)
     assert await host.response() == message(Answer.ENCODE_CHANGE, "01", source=SPONTANEOUS)
     assert await host.ask(message(Code.POSITION_READ, "01")) == message(Code.POSITION_READ, "01 FF FF FF FD")
     await host.pins(epin=0, epdir=0)
@@ -309,7 +310,7 @@ async def p312_version_of_the_build(dut: Any) -> None:
 
 
 @cocotb.parametrize(form=[message(Code.STEP, "00"), message(Code.RAMP, "00 0000 00000003")])
-@directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16))
+@directed("P312-INP-20", "P312-TIM-12", builds=(F16, D16), exact="a level of one cycle may not be sampled")
 async def p312_run_is_sampled_in_one_cycle(dut: Any, form: str) -> None:
     """If RUN is low for one cycle, it holds the operation only if this is the cycle before t0."""
     host = await Host.start(dut, *TF)

@@ -27,7 +27,8 @@ async def p312_searches_in_every_form(dut: Any) -> None:
             await host.pulse(2, 20)
             await host.pins(index_n=0)
             await host.pulse(4, 20)
-            await host.pins(index_n=1, org_n=0)
+            await host.pins(index_n=1)
+            await host.pins(org_n=0)
             if index:
                 await host.pulse(6, 20)
                 await host.pins(index_n=0)

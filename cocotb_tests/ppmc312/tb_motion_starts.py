@@ -209,7 +209,7 @@ async def p312_changes_that_wait_for_pulse_1(dut: Any) -> None:
             await host.pins(extck=0)
             await host.pause(10)
         host.mark = 0
-        return [gap // 22 for gap in host.gaps(1)]
+        return [round(gap / 22) for gap in host.gaps(1)]
 
     for changes, expected in (
         ((change(0x88, 8), change(0x87, 8)), [12, 12, 8, 8, 8, 8, 8, 8]),

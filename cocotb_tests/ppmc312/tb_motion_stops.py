@@ -12,7 +12,13 @@ from cocotb_tests.ppmc312.motion_tables import ALWAYS, SLOW_STOP, STOP, change
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
-@directed("P312-MOT-34", "P312-MOT-06", "P312-MOT-03", "P312-INP-12")
+@directed(
+    "P312-MOT-34",
+    "P312-MOT-06",
+    "P312-MOT-03",
+    "P312-INP-12",
+    exact="the switches must be sampled at the same edge",
+)
 async def p312_causes_in_the_same_cycle(dut: Any) -> None:
     for start, levels, cause in (
         (f"{ALWAYS} 0190", {"alm_n": 0, "fl_n": 0, "org_n": 0}, 0x80),

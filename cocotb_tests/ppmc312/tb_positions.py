@@ -12,8 +12,13 @@ from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
 async def encoder(host: Host, count: int) -> None:
-    """Apply `count` edges of the encoder at the highest allowed rate; a negative count is CCW."""
+    """Apply `count` edges of the encoder at the highest allowed rate; a negative count is CCW.
+
+    With JITTER=1, the direction changes one cycle before the edge, so that both are sampled in order.
+    """
     for _ in range(abs(count)):
+        if host.bench.slack:
+            await host.pins(epdir=int(count < 0))
         await host.pins(epin=1, epdir=int(count < 0))
         await host.pause(2)
         await host.pins(epin=0)

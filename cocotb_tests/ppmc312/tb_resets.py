@@ -14,7 +14,12 @@ from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
 
 
-@directed("P312-PAR-11", "P312-CMD-FF", "P312-PAR-06")
+@directed(
+    "P312-PAR-11",
+    "P312-CMD-FF",
+    "P312-PAR-06",
+    exact="a strobe must be sampled once in each cycle around the reset",
+)
 async def p312_a_read_during_the_software_reset(dut: Any) -> None:
     """If a read strobe coincides with a software reset, the bus has one value from the specified time to the
     end of the strobe.

@@ -201,7 +201,12 @@ async def p312_serial_end_status(dut: Any) -> None:
     assert await host.poll() == "A0 34" and await host.ask("40") == "A0 34"
 
 
-@directed("P312-SER-30", "P312-SER-22", "P312-SER-19")
+@directed(
+    "P312-SER-30",
+    "P312-SER-22",
+    "P312-SER-19",
+    exact="open: with late samples, RTL and golden model differ in the order of event and poll",
+)
 async def p312_serial_an_event_around_a_poll(dut: Any) -> None:
     """An event near a poll is reported exactly once."""
     host = await SerialHost.start(dut, TS, event("49", message(Code.EXCITATION_ON)))

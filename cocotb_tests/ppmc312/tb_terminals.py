@@ -265,7 +265,13 @@ async def p312_datasheet_triggered_stop(dut: Any) -> None:
     assert (await host.ask(T1))[:5] == "03 01"
 
 
-@directed("P312-CMD-25", "P312-CMD-27", "P312-INP-01", "P312-EVT-01")
+@directed(
+    "P312-CMD-25",
+    "P312-CMD-27",
+    "P312-INP-01",
+    "P312-EVT-01",
+    exact="the pins must be sampled at the same edge",
+)
 async def p312_25_and_27_show_all_pins_at_one_clk(dut: Any) -> None:
     """Instructions 25 and 27 sample all pins in the same cycle, for every source of the instruction."""
     names = ("alm_n", "end_n", "index_n", "org_n", "fhl_n", "bhl_n", "fl_n", "bl_n", "evt1_n", "run")

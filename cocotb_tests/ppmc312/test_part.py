@@ -19,6 +19,7 @@ MODULES = (
     "tb_transactions",
     "tb_accept",
     "tb_corners",
+    "tb_delays",
     "tb_collisions",
     "tb_clock",
     "tb_datasheet",

@@ -132,10 +132,15 @@ class Line:
 
     # ------------------------------------------------------------------ from the host
 
-    def sample(self, t: int, level: int) -> None:
-        """Sample this level of the pin at edge t."""
+    def sample(self, t: int, level: int, other: int) -> None:
+        """Sample the pin at edge t.
+
+        Args:
+            level: level that the receiver samples.
+            other: level that decides when a receiver opens; it may differ from `level` for a cycle.
+        """
         self._pin = level
-        self._services.queue.at(t + SYNC, Phase.PINS, lambda now: self._on_level(now, level))
+        self._services.queue.at(t + SYNC, Phase.PINS, lambda now: self._on_level(now, other))
         if self._open:
             self._on_receiver_level(t + SYNC, level)
 

@@ -226,7 +226,7 @@ class Pmc006(Chip):
 
     def _sample_bus(self, t: int, pins: Mapping[str, int]) -> None:
         level = pins["rxd"]
-        self.line.sample(t, level)
+        self.line.sample(t, level, self._stage.get("rxd", level))
 
     def _sample_levels(self, t: int) -> None:
         pins = self._pins

@@ -53,6 +53,17 @@ def test_late_and_prompt_changes() -> None:
     assert (log.late, log.prompt) == (2, 1)
 
 
+def test_edges_that_are_not_sampled_yet() -> None:
+    """After a change of a pin, its edge and the next one are pending until the log knows their levels."""
+    log = jitter.StageLog(PART)
+    rows: dict[str, list[tuple[int, int]]] = {path: [] for path in PART.stages}
+    pending = []
+    for now in (10, 11, 12):
+        log.add([Change(10, "l1_n", 0)], rows, now)
+        pending.append(log.pending)
+    assert pending == [10, 11, None]
+
+
 def test_two_synchronisers_of_a_pin() -> None:
     """Each synchroniser of a pin has its own level."""
     log = sampled([Change(10, "rxd", 0)], u_d=[(10, 1), (11, 0)])
