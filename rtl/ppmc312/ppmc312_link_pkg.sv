@@ -33,8 +33,9 @@ package ppmc312_link_pkg;
   localparam int unsigned PARAMS = 13;  // number of parameters of the longest instruction
 
   // An instruction block. Each parameter is stored at its position in the long form of the instruction; a
-  // missing parameter is 0. If an initial setting has no separate sides, the deceleration side has the
-  // values of the acceleration side.
+  // missing parameter is 0. Exception: an initial setting in which bit 4 of par[0] is 0 describes only one
+  // ramp, for acceleration and deceleration. Its stop rate is then stored equal to its start-up rate, and its
+  // deceleration pulses equal to its acceleration pulses.
   typedef struct packed {
     source_e                source;
     logic [BLOCK_BITS:0]    size;    // bytes that the host has written, 1 .. 32
