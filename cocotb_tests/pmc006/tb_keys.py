@@ -130,7 +130,7 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
 
 @directed("P006-PRG-30")
 async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
-    """If a key is pressed at reset or when it is enabled, it has no effect until it has been released."""
+    """A key that is already pressed at reset, or when it is enabled, has no effect until it is released."""
     host = await constant_speed_host(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)
