@@ -107,7 +107,7 @@ class Positioner:
 
     @property
     def lock(self) -> threading.RLock:
-        """Lock of the device."""
+        """The lock of the device."""
         return self._access.lock
 
     @property

@@ -320,7 +320,7 @@ class Link:
         self._session.events.clear()
 
     def pause(self, seconds: float) -> None:
-        """Wait on the clock of the port; events are kept."""
+        """Wait for a number of seconds, measured with the clock of the port; keep received events."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
             self._session.receive(self.port.read(left), self.clock())

@@ -70,7 +70,7 @@ class Device(Checked):
         raise NotImplementedError
 
     def process_reports(self, seconds: float) -> None:
-        """Wait `seconds` on the clock of the board, and process unsolicited reports of the part."""
+        """Process unsolicited reports of the part for `seconds`, measured with the clock of the port."""
         self.link.pause(seconds)
 
     def close(self) -> None:

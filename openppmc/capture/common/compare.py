@@ -374,7 +374,7 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the ratio of the time of the model to the time of the capture.
 
-    The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
+    The ratio is computed from the moves that both sides contain. If that is impossible, the ratio is 1.
 
     Args:
         alike: for each common move, its length in the capture and its length in the model, both in ps.

@@ -21,7 +21,7 @@ from ...streams import is_narrow
 
 
 def fitted(command: Any) -> Any:
-    """Change a command so that it prints its help without tables, and return it."""
+    """Make a command print its help without tables; return the command."""
     command.format_help = partial(write, command)
     for one in getattr(command, "commands", {}).values():
         fitted(one)
