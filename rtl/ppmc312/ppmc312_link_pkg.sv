@@ -173,8 +173,8 @@ package ppmc312_link_pkg;
   // Result of a block from the host, for the serial station.
   typedef struct packed {
     logic       valid;  // strobe: the block has been executed
-    logic [7:0] code;   // code of the response, one cycle later
-    logic [2:0] first;  // bits 2:0 of the first byte after the code, one cycle later
+    logic [7:0] code;   // code of the response, in the cycle after `valid`
+    logic [2:0] first;  // bits 2:0 of the first byte after the code, in the cycle after `valid`
   } host_result_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -69,7 +69,7 @@ module ppmc_proc_time
   endfunction
 
   if (!Datasheet) begin : g_fast
-    logic built_q;  // building_i, one cycle later
+    logic built_q;  // building_i, delayed by one cycle
     logic unused_bits;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin

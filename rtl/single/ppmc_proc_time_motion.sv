@@ -68,7 +68,7 @@ module ppmc_proc_time_motion #(
   state_e state_q;
   logic ramp_end_q, no_closed_q;  // ramp_end_q: the end takes EndRampUnits; no_closed_q: StClosed is skipped
   logic last_q;  // 1: the end delay starts in this cycle, in which the pins change
-  logic init_q;  // init_i, one cycle later
+  logic init_q;  // init_i, delayed by one cycle
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, increment;
