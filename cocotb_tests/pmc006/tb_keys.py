@@ -17,7 +17,7 @@ from .programs import END, Op, out, rot
 RESET_TO = 3
 HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
 FILTER = 1000
-"""Filter time of a key in us; the event occurs 0 to 2 us later."""
+"""The filter time of a key in us; the event occurs 0 to 2 us later."""
 LATE = 60
 """Maximum number of cycles from an event to the effect of the instruction that the event starts."""
 

@@ -272,7 +272,7 @@ class Session:
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
-        """Process received bytes. Return the answer without its SEQ if these bytes complete it, else `None`."""
+        """Process received bytes. Return the answer without its SEQ if they complete the answer."""
         self._received += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):

@@ -25,9 +25,8 @@ DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
 """Time in s after which a request without an answer is repeated.
 
-The link adds the transmission time on the line and the waits of the script to it.
-
-USB adapters and busy computers need this time.
+USB adapters and busy computers need this time. The link adds the transmission time on the line and the waits
+of the script.
 """
 _SETTLE = 0.02
 _QUIET = 0.05

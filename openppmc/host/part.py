@@ -30,7 +30,7 @@ DeviceT = TypeVar("DeviceT", bound="Device")
 
 
 class Transport(Protocol):
-    """Transport to the hardware: the link of a bridge, or the master of a line."""
+    """The transport to the hardware: the link of a bridge, or the master of a line."""
 
     @property
     def name(self) -> str: ...

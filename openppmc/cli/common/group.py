@@ -1,4 +1,4 @@
-"""Command group: the table of the commands, and their help texts.
+"""The command group: the table of the commands, and their help texts.
 
 A command is imported when it is called. On a narrow terminal, the help is plain text, because the cells of a
 table would cut words off.

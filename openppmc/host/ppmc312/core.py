@@ -26,7 +26,7 @@ MotionT = TypeVar("MotionT", bound=Motion)
 
 
 class Instructions(Protocol):
-    """Transport of instructions to a part.
+    """The transport of instructions to a part.
 
     `window.Window` transports them through the bridge, `line.station_link.StationLink` through a line.
     """

@@ -210,7 +210,7 @@ class Station(StationAccess, Protocol):
 
 
 class StationLink:
-    """Transport of instructions to a station; see `ppmc312.core.Instructions`.
+    """The transport of instructions to a station; see `ppmc312.core.Instructions`.
 
     Attributes:
         answers: number of responses of the station so far.
