@@ -548,7 +548,7 @@ class Ioc:
     async def _open_again(self) -> None:
         """Try to open the lost port.
 
-        If it opens, motors that are still moving are stopped, because no client follows their motions.
+        If the port opens, motors that are still moving are stopped, because no client follows their motions.
         """
         assert self._reopen is not None
         loop = asyncio.get_running_loop()

@@ -65,7 +65,7 @@ class Reading(NamedTuple):
 
 @dataclass(frozen=True)
 class Machine:
-    """Open device with its axes by number.
+    """An open device, with its axes by number.
 
     Attributes:
         start: starts moves of several axes together; `None` if moves can only be started one after the other.

@@ -34,7 +34,7 @@ Without the pause, the same thread could get the lock again before threads that 
 
 
 class _Access:
-    """Access of threads to a device.
+    """The access of threads to a device.
 
     Attributes:
         lock: held during each exchange with the device.
@@ -107,7 +107,7 @@ class Positioner:
 
     @property
     def lock(self) -> threading.RLock:
-        """Lock of the device."""
+        """The lock of the device."""
         return self._access.lock
 
     @property

@@ -22,7 +22,7 @@ PIPE_CLOSED = 141
 TERMINAL_CLOSED = 129
 """Exit status if the terminal was closed: 128 + SIGHUP. A write may fail before the signal arrives."""
 NARROW = 80
-"""Number of columns of a terminal below which a table that is too wide is printed as a list.
+"""On a terminal with fewer columns than this, a table that is too wide is printed as a list.
 
 On a terminal with fewer columns, the help is plain text.
 """

@@ -51,15 +51,16 @@ def build(name: str, axes: int, mhz: int, phase_idle: int = 1) -> Config:
 
 B8 = build("b8", 8, 16)
 B32 = build("b32", 32, 32)
-"""Build with 32 axes at the lowest clock frequency for this number of axes: the shortest interval between
+"""A build with 32 axes at the lowest clock frequency for this number of axes: the shortest interval between
 pulses is two rounds long.
 """
 F100 = build("f100", 32, 100)
 B4 = build("b4", 4, 8, phase_idle=0)
-"""Build whose round has more cycles than the bank has axes; a quantum of the internal base clock is 2 cycles.
+"""A build whose round has more cycles than the bank has axes; a quantum of the internal base clock has 2
+cycles.
 """
 B16 = build("b16", 16, 16)
-"""Build in which the interrupt map and MASK have two bytes each."""
+"""A build in which the interrupt map and MASK have two bytes each."""
 B64 = build("b64", 64, 64)
 BUILDS = (B8, B32, F100, B4, B64)
 

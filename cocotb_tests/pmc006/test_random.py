@@ -48,8 +48,8 @@ def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
 
 
 def test_random_with_eeprom(item: Item, seeds: str, sim_options: SimOptions) -> None:
-    """With hosts that have an EEPROM (also one that does not respond), every output edge equals that of the
-    golden model.
+    """With hosts that have an EEPROM, every output edge equals that of the golden model. Some EEPROMs do
+    not respond.
     """
     chip_item.run(item, seeds, sim_options)
 

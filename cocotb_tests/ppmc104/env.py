@@ -18,7 +18,7 @@ PINS_LATEST = 12
 
 
 class Env(AxisDriver):
-    """Test bench and host; create it with `await Env.start(dut, INIT_A)`.
+    """The test bench and its host; create it with `await Env.start(dut, INIT_A)`.
 
     With `None` instead of INIT_A, the core stays in its reset state.
     """

@@ -1,4 +1,4 @@
-"""Limit, alarm and origin inputs (P104-LIM): effect on each operation, priorities, timing.
+"""The limit, alarm and origin inputs (P104-LIM): their effect on each operation, priorities, timing.
 
 I(j) is the interval that follows pulse j.
 """

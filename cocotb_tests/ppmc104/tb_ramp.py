@@ -1,4 +1,4 @@
-"""Ramp table and profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11).
+"""The ramp table and the profile (P104-RMP, P104-PRO, P104-EX-01..03, P104-EX-07, P104-EX-11).
 
 I(j) is the interval that follows pulse j.
 """

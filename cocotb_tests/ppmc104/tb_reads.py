@@ -1,4 +1,4 @@
-"""Register reads and auxiliary ports (P104-RD, P104-AUX).
+"""The register reads and the auxiliary ports (P104-RD, P104-AUX).
 
 D = N - 1 is the number that a host sends for an operation of N pulses.
 """

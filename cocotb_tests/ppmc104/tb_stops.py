@@ -1,4 +1,4 @@
-"""Stop commands and operations (P104-STP, P104-OPR).
+"""The stop commands and the operations (P104-STP, P104-OPR).
 
 D = N - 1 is the number that a host sends for an operation of N pulses.
 """
@@ -46,8 +46,8 @@ async def p104_stp_01_immediate(dut):
 
 @directed("P104-STP-01", "P104-LIM-09")
 async def p104_stp_01_no_pulse_after_the_c_event(dut):
-    """With command 0x40 in each cycle near a pulse event, no pulse is output after the C-event, and the
-    remaining count is correct (P104-STP-01).
+    """With command 0x40 in each cycle near a pulse event, no pulse is output after the core has consumed the
+    command (its C-event), and the remaining count is correct (P104-STP-01).
     """
     env = await Env.start(dut, INIT_A)
     seen = set()

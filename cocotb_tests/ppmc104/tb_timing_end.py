@@ -1,4 +1,4 @@
-"""Start, pulse shape and end of a motion (P104-TIM, P104-END).
+"""The start, the pulse shape and the end of a motion (P104-TIM, P104-END).
 
 W is the pulse and set-up time of 5 us in cycles.
 """

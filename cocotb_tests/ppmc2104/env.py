@@ -58,7 +58,7 @@ class Axis(AxisDriver):
 
     @property
     def phases_now(self) -> int:
-        """Present levels of the five phase pins."""
+        """The present levels of the five phase pins."""
         return self.bench.level(self.phases)
 
     def edges(self, name: str, since: int | None = None) -> list[tuple[int, int]]:
@@ -116,7 +116,7 @@ class Axis(AxisDriver):
 
 
 class Env:
-    """Test bench, host and axes `x1`, `x2`; create it with `await Env.start(dut)`."""
+    """The test bench, the host, and the axes `x1` and `x2`; create it with `await Env.start(dut)`."""
 
     def __init__(self, bench: DutBench) -> None:
         self.bench = bench

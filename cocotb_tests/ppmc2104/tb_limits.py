@@ -1,4 +1,4 @@
-"""Limit, slow-down, alarm and origin inputs (P2104-LIM): effect on each operation.
+"""The limit, slow-down, alarm and origin inputs (P2104-LIM): their effect on each operation.
 
 I(j) is the interval that follows pulse j.
 """

@@ -1,4 +1,4 @@
-"""Read instructions and interrupts (P2104-RD, P2104-INT).
+"""The read instructions and the interrupts (P2104-RD, P2104-INT).
 
 W is the pulse and set-up time of 5 us in cycles.
 """

@@ -1,4 +1,4 @@
-"""Free curves of the PPMC-312: transfers, errors in transfers, disturbances."""
+"""The free curves of the PPMC-312: transfers, errors in transfers, disturbances."""
 
 from __future__ import annotations
 

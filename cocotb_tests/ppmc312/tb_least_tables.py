@@ -101,8 +101,8 @@ async def p312_least_table_from_an_event(dut: Any) -> None:
 @cocotb.parametrize(direction=[0, 0x40])
 @directed("P312-TBL-05", "P312-MOT-01", "P312-MOT-12", "P312-MOT-20", "P312-MOT-30", "P312-GEN-06")
 async def p312_motions_along_least_stages(dut: Any, direction: int) -> None:
-    """Operations, a triangular profile and a deceleration stop output all intervals of stages with 2
-    pulses.
+    """If the table has stages of 2 pulses, no interval is missing in moves with ramps, in a triangular
+    profile and in a deceleration stop.
     """
     sign = -1 if direction else 1
     host = await Host.start(dut, FAST)

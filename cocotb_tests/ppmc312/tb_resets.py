@@ -56,8 +56,8 @@ async def p312_a_read_during_the_software_reset(dut: Any) -> None:
 
 @directed("P312-PAR-11", "P312-PAR-10", "P312-PAR-12", "P312-CMD-FF")
 async def p312_a_write_during_the_software_reset(dut: Any) -> None:
-    """At any distance from the reset, it clears a value that was written to CSR before it, and keeps a value
-    that is written after it.
+    """A software reset clears a value that was written to CSR before the reset, and keeps a value that is
+    written after it, however close to the reset the write is.
     """
     seen = []
     for after in range(1, 41):

@@ -1,6 +1,6 @@
 """Stimulus of `make demo PART=stmc` on the ISA bus of the board.
 
-An old program moves the motor, runs it to its limit and to its reference point, and then holds it.
+An old program moves the motor, runs it to a limit switch and to the reference point, and then holds it.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ BUILD_LATEST = 40_000
 
 
 class Env(AxisDriver):
-    """Test bench and host.
+    """The test bench and its host.
 
     `pulses` are the steps, as edges of `s`. `period` is the period of `ext_clk` in cycles, 0 if it is
     stopped.

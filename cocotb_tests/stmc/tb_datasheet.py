@@ -210,7 +210,9 @@ async def stmc_ds_12_causes_at_the_start(dut: Any) -> None:
 
 @directed("STMC-DS-13", "STMC-BUS-14", builds=(D16,))
 async def stmc_ds_13_a_newer_byte(dut: Any) -> None:
-    """If a newer byte replaces a byte that waits for the end, only the newer byte is checked (STMC-DS-13)."""
+    """If a byte waits after the last step of a motion and a newer byte replaces it, only the newer byte is
+    processed (STMC-DS-13).
+    """
     env = await Env.start(dut, INTERNAL, clock=0)
     await event(env, 0x44, 2, 3)
     last = await env.pulse(2)

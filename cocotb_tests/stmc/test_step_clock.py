@@ -1,5 +1,5 @@
-"""Step clock of the board, derived from the core clock: ten seconds, simulated in C++; cocotb would take
-minutes.
+"""The step clock of the board, derived from the core clock: ten seconds of it, simulated in C++, because
+cocotb would take minutes.
 
 The waveform is that of `ppmc_square` with the parameters of `j105_stmc`. The tests of `tb_board` compare the
 steps of the board with the golden model, which counts this waveform.

@@ -1,4 +1,4 @@
-"""Comparison of two lists of output edges: the edges of both sides, and the first difference."""
+"""Comparison of two lists of output edges: the edges of both lists, and the first difference."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Mismatch:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Output edges of both sides in a run, for a report or a picture.
+    """The output edges of a run, expected and actual, for a report or a picture.
 
     Attributes:
         pins: pins of the part.
@@ -78,7 +78,7 @@ def compare_edges(
         resets: times of the falling edges of `rst_n`.
 
     Returns:
-        Both sides as changes per signal, and the first difference or `None`.
+        The changes of each signal in both lists, and the first difference or `None`.
     """
     snap = {t - 1: t for t in resets}
     sides = []

@@ -1,6 +1,6 @@
 """A comparison as text.
 
-The text contains the first difference, nearby edges of both sides, and the preceding stimulus.
+The text contains the first difference, nearby expected and actual edges, and the preceding stimulus.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def write_report(comparison: Comparison, folder: Path, repro: str = "") -> str:
 def report(comparison: Comparison, repro: str = "", history: int = 24) -> str:
     """Return the text of a mismatch.
 
-    The text contains the first difference, nearby edges of both sides, and the preceding stimulus.
+    The text contains the first difference, nearby expected and actual edges, and the preceding stimulus.
     """
     m, recording = comparison.mismatch, comparison.recording
     if m is None:

@@ -32,7 +32,7 @@ OWN_SETTINGS = "settings instead of a set-up"
 
 @dataclass(frozen=True)
 class SetupRequest:
-    """Request for an initialisation; names and units are those of `initialise` of the drivers.
+    """A request for an initialisation; names and units are those of `initialise` of the drivers.
 
     Attributes:
         ramp_pulses: `None` for the default of the part.

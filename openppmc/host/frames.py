@@ -154,8 +154,8 @@ WAKE_UP = b"\x00\x00\x7d\x7e"
 """Bytes that wake a bridge up at 115 200 baud (UB-LIN-06).
 
 At any rate, and within any frame, they return the bridge to the idle state. 7D 7E ends a frame as invalid.
-With 7E alone, the bridge would execute a request that lacks only its last flag: at that point, its CRC
-register is 0, and 00 00 do not change it.
+With 7E alone, the bridge would execute a request that lacks only its last flag: at that point, the CRC
+register of the bridge is 0, and the bytes 00 00 do not change it.
 """
 
 
@@ -272,7 +272,7 @@ class Session:
         self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
-        """Process received bytes. If they complete the answer, return it without its SEQ."""
+        """Process received bytes. Return the answer without its SEQ if they complete the answer."""
         self._received += len(data)
         for item in self._deframer.feed(data):
             if isinstance(item, Frame):

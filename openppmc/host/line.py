@@ -227,7 +227,7 @@ class Master(Generic[Answer]):
         return self.port.clock()
 
     def pause(self, seconds: float) -> None:
-        """Wait on the clock of the port; discard received bytes."""
+        """Wait for a number of seconds, measured with the clock of the port; discard received bytes."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
             self.stray_bytes += len(self.port.read(left))
@@ -425,7 +425,7 @@ class LineBus(Device, Generic[LineT, StationT]):
         return ends
 
     def process_reports(self, seconds: float) -> None:
-        """Wait on the clock of the line and poll the stations in use."""
+        """Poll the stations in use for `seconds`, measured with the clock of the line."""
         end = self.line.clock() + seconds
         while (left := end - self.line.clock()) > 0:
             for axis in self.axes:

@@ -25,9 +25,8 @@ DEFAULT_BAUD = 1_000_000
 MARGIN = 0.3
 """Time in s after which a request without an answer is repeated.
 
-The link adds the transmission time on the line and the waits of the script to it.
-
-USB adapters and busy computers need this time.
+USB adapters and busy computers need this time. The link adds the transmission time on the line and the waits
+of the script.
 """
 _SETTLE = 0.02
 _QUIET = 0.05
@@ -320,7 +319,7 @@ class Link:
         self._session.events.clear()
 
     def pause(self, seconds: float) -> None:
-        """Wait on the clock of the port; events are kept."""
+        """Wait for a number of seconds, measured with the clock of the port; keep received events."""
         end = self.clock() + seconds
         while (left := end - self.clock()) > 0:
             self._session.receive(self.port.read(left), self.clock())

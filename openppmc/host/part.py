@@ -30,7 +30,7 @@ DeviceT = TypeVar("DeviceT", bound="Device")
 
 
 class Transport(Protocol):
-    """Transport to the hardware: the link of a bridge, or the master of a line."""
+    """The transport to the hardware: the link of a bridge, or the master of a line."""
 
     @property
     def name(self) -> str: ...
@@ -70,7 +70,7 @@ class Device(Checked):
         raise NotImplementedError
 
     def process_reports(self, seconds: float) -> None:
-        """Wait `seconds` on the clock of the board, and process unsolicited reports of the part."""
+        """Process unsolicited reports of the part for `seconds`, measured with the clock of the port."""
         self.link.pause(seconds)
 
     def close(self) -> None:

@@ -68,7 +68,7 @@ class Context:
 
 
 class PinRegister:
-    """Output registers. They get the internal levels `lag` cycles after a change.
+    """The output registers. They get the internal levels `lag` cycles after a change.
 
     Args:
         set_pin: set_pin(t, signal, value) sets a pin of the part.

@@ -21,7 +21,8 @@ class Latency:
     """Constants of one core, in cycles. The defaults are those of the RTL of this project.
 
     Attributes:
-        c_event: from the write event to the C-event if the mailbox is open (P104-HSK-03, 0..8).
+        c_event: from the write event to the C-event, at which the core consumes the byte, if the mailbox is
+            open (P104-HSK-03, 0..8).
         window_open: from the end of a closed window to the C-event of a byte that waited.
         host_pins: from an internal change to the pins int_n, aux_n, auxo (0..2).
         int_pin: from a change of an interrupt latch to int_n, on parts with several latches (P2104-INT-03,

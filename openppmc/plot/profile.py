@@ -18,7 +18,7 @@ from .motion import GREY, INK, PALE, SPEED, bare
 
 
 class Move(Protocol):
-    """Move that is drawn: time of each pulse in s, speed in each interval in pulses per second."""
+    """A move that is drawn: time of each pulse in s, speed in each interval in pulses per second."""
 
     @property
     def seconds(self) -> Sequence[float]: ...

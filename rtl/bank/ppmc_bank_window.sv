@@ -213,7 +213,7 @@ module ppmc_bank_window
   logic [7:0] data, status, value;
   logic ibf, obf, axis_exists;
   logic [23:0] position_latch_q;  // bytes 1..3 of the position, latched when byte 0 is read
-  logic ready_q;  // ready_i, one cycle later
+  logic ready_q;  // ready_i, delayed by one cycle
 
   assign axis_exists = 32'(a_s2[9:4]) < Axes;
 

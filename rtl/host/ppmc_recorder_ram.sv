@@ -14,7 +14,7 @@ module ppmc_recorder_ram #(
     input  wire logic                we_i,     // 1: write at the next edge, 0: read
     input  wire logic [AddrBits-1:0] addr_i,   // address
     input  wire logic [   Width-1:0] wdata_i,  // write data
-    output logic      [   Width-1:0] rdata_o   // word at addr_i, one cycle later
+    output logic      [   Width-1:0] rdata_o   // word at the addr_i of the previous cycle
 );
 
   localparam int unsigned SingleBits = 14;  // address bits of an SPRAM

@@ -305,8 +305,8 @@ module ppmc_axis
           base: base_q
       };
 
-  // The assertions check that no pulse occurs at or after an immediate end, that a motion that no cause ends
-  // completes its count, and that no pulse is missed because a low time was not cut.
+  // The assertions check that no pulse occurs at or after an immediate end, that a motion completes its
+  // count if no cause ends it, and that no pulse is missed because a low time was not cut.
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p104_lim_03_no_pulse, !(fire && stop))
   // External clock edges less than 4 cycles apart are too fast (P104-BAD-14, P2104-BAD-19): the cut may be

@@ -61,7 +61,7 @@ module ppmc_ramp_seq #(
   logic [StepBits-1:0] ramp_level, ramp_level_nq;
   logic [RateBits-1:0] lookup_rate_q;  // rate that is being tested
   logic [RateBits-1:0] prev_rate_q;  // rate of the interval before the last acceleration step
-  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, one cycle later
+  logic near_q, full_q, zero_q, low_q;  // comparisons of left_o and ramp_level, delayed by one cycle
   logic load_q;  // 1: lookup_rate_q is the rate of the running interval
   logic decel_q;  // 1: the deceleration has begun
   logic end_q;  // 1: the look-up is at the end of the ramp; valid before each test

@@ -2,8 +2,8 @@
 // ppmc104_setup: stores the switching parameters and auxiliary outputs, which the host sets outside an
 //         initialisation.
 // Rules:  P104-AUX-01..06, P104-SW-04.
-// Timing: all outputs change at the edge that ends the cycle of their action. auxo_o and aux_no drive pins
-//         directly.
+// Timing: the actions of act_i take effect at the next rising edge. chop_o also depends on vsel_i
+//         combinationally. auxo_o and aux_no drive pins directly.
 `default_nettype none
 
 module ppmc104_setup

@@ -3,7 +3,7 @@
 //         read instructions.
 // Rules:  P2104-OPR-01..10, P2104-END-01..08, P2104-RD-01..07, P2104-BCK-05; the instantiated blocks
 //         implement the motion.
-// Timing: an action takes effect at the edge that ends its cycle. The motor pins follow one cycle later.
+// Timing: the actions of act_i take effect at the next rising edge. The motor pins follow one cycle later.
 // Note:   this module has no input from the other axis.
 `include "ppmc_assert.svh"
 `default_nettype none

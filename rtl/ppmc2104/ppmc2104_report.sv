@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc2104_report: error registers and interrupt causes of both axes, and the INT output.
 // Rules:  P2104-ERR-06, P2104-RD-03/07, P2104-STA-06, P2104-INT-01..05.
-// Timing: registers and causes change at the edge that ends the cycle of their event. int_no follows one
-//         cycle later. If a cause is cleared at edge e, int_no is high from edge e + 1 until at least edge
-//         e + 1 + WidthCycles.
+// Timing: error_report_i, end_i, read_end_i and read_error_i take effect at the edge that ends their cycle.
+//         int_no follows one cycle later. If a cause is cleared at edge e, int_no is high from edge e + 1
+//         until at least edge e + 1 + WidthCycles.
 `include "ppmc_assert.svh"
 `default_nettype none
 

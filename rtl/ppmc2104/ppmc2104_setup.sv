@@ -2,8 +2,8 @@
 // ppmc2104_setup: stores the settings that the host makes for one axis: initial setting, switching times and
 //         hold delay.
 // Rules:  P2104-INI-04..07, P2104-AUX-01/04..06, P2104-PHS-03, P2104-SW-01/02.
-// Timing: registers change at the edge that ends the cycle of their action. chop_o depends on ready_i
-//         combinationally.
+// Timing: the actions of act_i take effect in setup_o at the next rising edge. phase_init_o depends
+//         on act_i combinationally, chop_o on ready_i.
 `default_nettype none
 
 module ppmc2104_setup

@@ -44,7 +44,7 @@ module ppmc2104_speed
     axis_summary_t addressed, other;
     min_rates_t min_rates;
     logic [RATE_BITS-1:0] rate;
-    logic [3:0] below, below_q;  // below: rate value below the limit; below_q: one cycle later
+    logic [3:0] below, below_q;  // below: rate value below the limit; below_q: register that stores below
     logic is_limited, second_q, csel, below_one_axis, below_two_axes, unused_bits;
 
     assign op_code = op_code_t'(code_i);

@@ -33,8 +33,9 @@ package ppmc312_link_pkg;
   localparam int unsigned PARAMS = 13;  // number of parameters of the longest instruction
 
   // An instruction block. Each parameter is stored at its position in the long form of the instruction; a
-  // missing parameter is 0. If an initial setting has no separate sides, the deceleration side has the
-  // values of the acceleration side.
+  // missing parameter is 0. Exception: an initial setting in which bit 4 of par[0] is 0 describes only one
+  // ramp, for acceleration and deceleration. Its stop rate is then stored equal to its start-up rate, and its
+  // deceleration pulses equal to its acceleration pulses.
   typedef struct packed {
     source_e                source;
     logic [BLOCK_BITS:0]    size;    // bytes that the host has written, 1 .. 32
@@ -172,8 +173,8 @@ package ppmc312_link_pkg;
   // Result of a block from the host, for the serial station.
   typedef struct packed {
     logic       valid;  // strobe: the block has been executed
-    logic [7:0] code;   // code of the response, one cycle later
-    logic [2:0] first;  // bits 2:0 of the first byte after the code, one cycle later
+    logic [7:0] code;   // code of the response, in the cycle after `valid`
+    logic [2:0] first;  // bits 2:0 of the first byte after the code, in the cycle after `valid`
   } host_result_t;
 
   // verilator lint_on UNUSEDPARAM

@@ -67,7 +67,7 @@ package ppmc_code_pkg;
     logic [2:0] params;  // number of parameter bytes that follow
   } decoded_t;
 
-  // Actions of an accepted byte, one bit each. They are requested at the C-event.
+  // Actions of a byte, one bit each. They are requested when the byte is accepted (its C-event).
   typedef struct packed {
     logic init;     // an initialisation is accepted
     logic start;    // start of an operation

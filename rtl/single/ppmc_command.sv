@@ -41,8 +41,8 @@ module ppmc_command
     output logic [31:0] params_held_o  // parameters of code_held_o
 );
 
-  decoded_t   dec_q;  // decoded_i, one cycle later
-  cmd_error_e param_error_q;  // param_error_i, one cycle later; the byte is stable for at least this cycle
+  decoded_t   dec_q;  // decoded_i, delayed by one cycle
+  cmd_error_e param_error_q;  // param_error_i, delayed by one cycle, in which the byte is stable
   parser_state_t parser_q, parser;
   logic stop;
 

@@ -3,7 +3,7 @@
 //         delay. With DATASHEET, the delays are the processing times of the old chip.
 // Rules:  P104-DS-01..12, P104-DS-14, P104-HSK-03/04; STMC-DS-01..14, STMC-INI-07.
 // Timing: a DATASHEET time starts at the C-event (acceptance of a byte, 2 cycles after the write event), or
-//         at the pulse or decision to which the time belongs. The event that the time delays occurs one cycle
+//         at the pulse or decision to which the time belongs. The delayed event occurs one cycle
 //         after the nominal time.
 // How:    two timers: one for the current command (during which the mailbox is closed), and one for the
 //         motion (pulse 1, end).
@@ -69,7 +69,7 @@ module ppmc_proc_time
   endfunction
 
   if (!Datasheet) begin : g_fast
-    logic built_q;  // building_i, one cycle later
+    logic built_q;  // building_i, delayed by one cycle
     logic unused_bits;
 
     always_ff @(posedge clk_i or negedge rst_ni) begin

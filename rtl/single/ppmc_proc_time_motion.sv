@@ -4,7 +4,7 @@
 //         time, so they share one counter.
 // Rules:  P104-DS-02, P104-DS-04..08; STMC-DS-01..14.
 // Timing: a time starts at the edge of init_i, start_i or stop_i, or one cycle after the edge of pulse_i
-//         with last_i. The event that the time delays occurs one cycle after the nominal time.
+//         with last_i. The delayed event occurs one cycle after the nominal time.
 // How:    a part of some times is proportional to a number: 209 crystal cycles per step of PA, or 123/16
 //         crystal cycles per pulse of a triangular profile. This part is subtracted from the count in
 //         portions, at most one portion per cycle, as soon as the count is large enough. The subtraction
@@ -68,7 +68,7 @@ module ppmc_proc_time_motion #(
   state_e state_q;
   logic ramp_end_q, no_closed_q;  // ramp_end_q: the end takes EndRampUnits; no_closed_q: StClosed is skipped
   logic last_q;  // 1: the end delay starts in this cycle, in which the pins change
-  logic init_q;  // init_i, one cycle later
+  logic init_q;  // init_i, delayed by one cycle
   logic restart, past, full, portion, more;
   logic [1:0] cycles;
   logic [CountBits-1:0] count_q, increment;

@@ -2,7 +2,8 @@
 // ppmc_setup: settings that an initialisation makes in a single-axis device, except the ramp
 //         (ppmc_ramp_table).
 // Rules:  P104-INI-01/05/06/08, P104-PHS-02/05; STMC-INI-04/06, STMC-CHP-02.
-// Timing: all outputs change at the edge that ends the cycle of the input that causes the change.
+// Timing: all outputs are registered. They change at the edge that ends the cycle of init_i, phase_init_i,
+//         ready_i or off_i.
 `default_nettype none
 
 module ppmc_setup

@@ -51,7 +51,7 @@ package ppmc_single_pkg;
 
   // Command that the host requests with the current byte.
   typedef struct packed {
-    logic [7:0]  code;    // code of the action; with DATASHEET valid only at the C-event
+    logic [7:0]  code;    // code of the action; with DATASHEET valid only when the byte is accepted
     logic [31:0] params;  // parameters of code; the last one is in bits 31:24
   } command_req_t;
 

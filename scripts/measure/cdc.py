@@ -40,7 +40,7 @@ class Origin(NamedTuple):
 
 
 class Sample(NamedTuple):
-    """Register bit or memory that samples asynchronous levels.
+    """A register bit or a memory that samples asynchronous levels.
 
     Attributes:
         name: name of the register in `module`; `path` is its name in the top.

@@ -1,9 +1,9 @@
 """Reader of docs/<folder>/figures.yml, which describes the tables and pictures of the pages of a folder.
 
-An entry of `tables` has the name of its marker in README.md; an entry of `pictures` has the name of its file
-in img/. The `kind` of an entry is a function below scripts.pages, which is called with the other values of
-the entry. The function returns Markdown for a table, and a matplotlib figure or a WaveDrom drawing for a
-picture.
+An entry of `tables` has the name of its marker in README.md; an entry of `pictures` has the name of the
+picture's file in img/. The `kind` of an entry is a function below scripts.pages, which is called with the
+other values of the entry. The function returns Markdown for a table, and a matplotlib figure or a WaveDrom
+drawing for a picture.
 """
 
 from __future__ import annotations

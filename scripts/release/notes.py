@@ -1,4 +1,4 @@
-"""Release notes (section of CHANGELOG.md, missing files, descriptions of files), and digests of all files."""
+"""The release notes (section of CHANGELOG.md, missing files, descriptions of files), and file digests."""
 
 from __future__ import annotations
 

@@ -27,7 +27,10 @@ SEARCH = (
 PAGE = re.compile(r"docs/(\w+)/(examples|README)\.md")
 START = "README.md"
 ADDRESSES = {"landing.md": "index.html", START: "overview.html"}
-"""Addresses of pages that differ from their names, so that MkDocs does not begin with README.md."""
+"""File of a page -> its address, if the address does not follow from the name of the file.
+
+Without this table, MkDocs would make README.md the first page of the site (index.html).
+"""
 LINE, LINE_PART = "docs/ppmc312/serial.md", "ppmc312-serial"
 """Page of a part of the playground that has no manual of its own, and the name of this part."""
 PARTS = ("ppmc104", "ppmc2104", "stmc", "ppmc312", "pmc006", "bank")

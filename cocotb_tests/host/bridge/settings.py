@@ -1,4 +1,4 @@
-"""Build configurations of the bridge; `extra` contains the parameter Baud."""
+"""The configurations in which tests build the bridge; `extra` contains the parameter Baud."""
 
 from __future__ import annotations
 

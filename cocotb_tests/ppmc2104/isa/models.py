@@ -1,4 +1,4 @@
-"""Comparison of each part of the module with a separate golden model, edge by edge."""
+"""Comparison of each PPMC-2104 of the ISA module with a separate golden model, edge by edge."""
 
 from __future__ import annotations
 

@@ -209,7 +209,10 @@ async def stage_tables_exact(dut):
 
 
 def curves(rand: random.Random) -> Table:
-    """Return a free curve with few or all stages, one table or two, and mostly descending rates."""
+    """Return a random free curve with one table or two, each of 2 to 127 stages.
+
+    In most curves, the rates are sorted, fastest first; in the others, their order is random.
+    """
     counts = [rand.choice((2, 3, rand.randint(2, 12), rand.randint(2, 127), 127)) for _ in range(2)]
     split = rand.random() < 0.7
     if rand.random() < 0.2:

@@ -34,7 +34,8 @@ WATCH = "next_end_o next_low_o next_count_o next_rate_o"
 def small_curve(rand: random.Random) -> Table:
     """Return a curve of a few stages with a few pulses each.
 
-    The rates mostly descend, half of the curves have equal neighbouring rates, and the two ramps may differ.
+    In most curves, the rates are sorted, fastest first. In half of the curves, neighbouring rates may be
+    equal. The two ramps may differ.
     """
     counts = [rand.choice((2, 3, 5)), rand.choice((2, 3, 4))]
     split = rand.random() < 0.7

@@ -356,7 +356,8 @@ def _inputs(decoded: Decoded) -> dict[str, Channel]:
 def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
     """Return the ratio of the time of the model to the time of the capture.
 
-    The ratio is measured with long moves that both sides contain. Without such moves, it is 1.
+    The ratio is measured with long moves that the capture and the model both contain. Without such moves, the
+    ratio is 1.
     """
     wires = decoded.wires
     both = {**wires.bits, **{port: _bits(channel) for port, channel in played.outputs.items()}}
@@ -374,7 +375,8 @@ def _ratio(decoded: Decoded, played: _ModelEdges, begin: int) -> float:
 def clock_ratio(alike: list[tuple[int, int]], slack: int) -> float:
     """Return the ratio of the time of the model to the time of the capture.
 
-    The ratio is computed from the moves that both sides contain. It is 1 if it cannot be computed from them.
+    The ratio is computed from the moves that the capture and the model both contain. If that is impossible,
+    the ratio is 1.
 
     Args:
         alike: for each common move, its length in the capture and its length in the model, both in ps.

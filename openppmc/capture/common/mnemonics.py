@@ -164,7 +164,7 @@ class OneAxisDecoder(CommandDecoder):
 
 @dataclass
 class Exchange:
-    """Command with its data, its response, and the status bytes read during it.
+    """A command with its data and its response, and the status bytes that were read during the command.
 
     Attributes:
         t: time of the command in cycles.

@@ -20,7 +20,7 @@ CHOPPED = 20 * 10**9
 
 @dataclass(frozen=True)
 class Move:
-    """Move: pulses without a pause.
+    """A move: pulses without a pause between them.
 
     Attributes:
         way: direction of the move; 1 = CW, -1 = CCW, 0 = unknown.

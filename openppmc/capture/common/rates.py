@@ -1,4 +1,4 @@
-"""Sample rates and units of time as programs of analysers write them."""
+"""The sample rates and the units of time, as the programs of analysers write them."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ KNOWN = 1000
 
 
 class BusAccess(NamedTuple):
-    """Access in the form that `CommandDecoder` accepts."""
+    """An access in the form that `CommandDecoder` accepts."""
 
     t: int
     kind: str

@@ -202,7 +202,7 @@ class Channel:
 
 @dataclass
 class Capture:
-    """Complete capture.
+    """A complete capture.
 
     Attributes:
         name: name of the file.

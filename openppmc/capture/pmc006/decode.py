@@ -1,4 +1,4 @@
-"""Line of PMC006B4 as text: frames of host and controllers.
+"""The line of PMC006B4 as text: frames of host and controllers.
 
 The PMC006B4 drives the motor directly, so there are no pulses to capture.
 """

@@ -1,4 +1,4 @@
-"""Command group: the table of the commands, and their help texts.
+"""The command group: the table of the commands, and their help texts.
 
 A command is imported when it is called. On a narrow terminal, the help is plain text, because the cells of a
 table would cut words off.
@@ -21,7 +21,7 @@ from ...streams import is_narrow
 
 
 def fitted(command: Any) -> Any:
-    """Change a command so that it prints its help without tables, and return it."""
+    """Make a command print its help without tables; return the command."""
     command.format_help = partial(write, command)
     for one in getattr(command, "commands", {}).values():
         fitted(one)

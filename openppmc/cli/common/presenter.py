@@ -102,7 +102,7 @@ def key_figures(setup: units.Setup, pulses: int, speed: units.Speed | None) -> d
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Move that is drawn: time of each pulse in s, and speed in each interval in pps."""
+    """A move that is drawn: time of each pulse in s, and speed in each interval in pps."""
 
     seconds: list[float]
     speeds: list[float]

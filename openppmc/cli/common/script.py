@@ -1,4 +1,4 @@
-"""Script files, one command a line: `read_program` parses a file, `ScriptRunner` executes it."""
+"""The script files, with one command per line: `read_program` parses a file, `ScriptRunner` executes it."""
 
 from __future__ import annotations
 

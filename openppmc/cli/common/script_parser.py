@@ -14,7 +14,7 @@ from .options import MOST_AXES, Direction, Logic, SetupValues
 
 @dataclass(frozen=True)
 class PartCommand:
-    """Command of script files that only some parts support.
+    """A command of script files that only some parts support.
 
     Attributes:
         unsupported_reason: function that returns why a part does not support the command with these operands,

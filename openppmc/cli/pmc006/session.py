@@ -1,4 +1,4 @@
-"""Line of PMC006B4 that a command has opened, and output of the commands."""
+"""The line of PMC006B4 that a command has opened, and output of the commands."""
 
 from __future__ import annotations
 

@@ -65,10 +65,10 @@ def write_mask(kind: RateCapabilities, numbers: tuple[int, ...]) -> list[tuple[i
 class Group(Checked):
     """Context manager for motions that start together.
 
-    If a motion of one of its axes is started inside the block, it waits before its first pulse.
+    If a motion is started inside the block, on an axis of the group, the motion waits before its first pulse.
 
-    At the end of the block, all of them start in the same cycle. If an exception leaves the block, the
-    waiting motions are stopped, and no axis moves. A group is created with the numbers of its axes.
+    At the end of the block, all of these motions start in the same cycle. If an exception leaves the block,
+    the waiting motions are stopped, and no axis moves. A group is created with the numbers of its axes.
 
     Raises:
         AxisBusy: an axis moves at the start of the block.

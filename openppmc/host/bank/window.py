@@ -45,7 +45,7 @@ class AxisLink:
         return self._link.clock()
 
     def pause(self, seconds: float) -> None:
-        """Wait on the clock of the port."""
+        """Wait for a number of seconds, measured with the clock of the port."""
         self._link.pause(seconds)
 
     def close(self) -> None:

@@ -73,7 +73,11 @@ class Axis(Settings):
         return self._start(Code.RUN, 1, (_RUNNING,), direction, speed)
 
     def change_speed(self, speed: int) -> None:
-        """Set the maximum speed. A running motion changes its speed to it, with its ramps."""
+        """Set the maximum speed.
+
+        A motion in progress accelerates or decelerates to the new speed with the set ramps. A move of up to
+        255 steps and a last ramp ignore the new speed.
+        """
         self.max_speed = speed
 
     def stop(self, wait: bool = True) -> MotionResult | None:

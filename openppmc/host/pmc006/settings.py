@@ -161,7 +161,7 @@ class Settings(StationLink):
     def was_reset(self) -> bool:
         """Return True if one of the settings that a reset changes differs from its stored value.
 
-        If all these settings had their factory values before a reset, the method cannot detect it.
+        If all these settings had their factory values before a reset, the method cannot detect the reset.
         """
         return any(getattr(self, name) != value for name, value in self.unsaved.items())
 

@@ -26,7 +26,7 @@ MotionT = TypeVar("MotionT", bound=Motion)
 
 
 class Instructions(Protocol):
-    """Transport of instructions to a part.
+    """The transport of instructions to a part.
 
     `window.Window` transports them through the bridge, `line.station_link.StationLink` through a line.
     """
@@ -164,7 +164,7 @@ class Core(Checked, Generic[MotionT]):
         return self.reports.popleft() if self.reports else None
 
     def process_reports(self, seconds: float) -> None:
-        """Wait `seconds` on the clock of the board, and process unsolicited reports of the part."""
+        """Process unsolicited reports of the part for `seconds`, measured with the clock of the port."""
         end = self.link.clock() + seconds
         while (left := end - self.link.clock()) > 0:
             if self.link.wait_event(left) is not None:

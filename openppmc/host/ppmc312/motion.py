@@ -29,7 +29,7 @@ SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: 
 
 
 class Transport(device.Transport, Protocol):
-    """Transport to the part: the link of a bridge, or the master of a line."""
+    """The transport to the part: the link of a bridge, or the master of a line."""
 
     @property
     def identity(self) -> Identity: ...
@@ -38,7 +38,7 @@ class Transport(device.Transport, Protocol):
 
 
 class ReportSource(Protocol):
-    """Transport of reports from the part to its driver."""
+    """The transport of reports from the part to its driver."""
 
     def collect(self) -> None: ...
 

@@ -1,4 +1,4 @@
-"""Access to a PPMC-312 through its block registers on the bridge.
+"""The access to a PPMC-312 through its block registers on the bridge.
 
 An instruction needs one message to the bridge and one from the bridge.
 
@@ -51,7 +51,7 @@ has ended, and of the position in this report.
 
 
 class Window:
-    """Transport of instructions through the block registers.
+    """The transport of instructions through the block registers.
 
     Args:
         arrived: called with each response or report that does not belong to an instruction of the host.

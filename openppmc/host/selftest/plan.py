@@ -65,7 +65,7 @@ class PartAccess:
         return self.link.execute(script).values
 
     def pause(self, seconds: float) -> None:
-        """Wait on the clock of the board."""
+        """Wait for a number of seconds, measured with the clock of the port (virtual time for `model:`)."""
         self.link.pause(seconds)
 
     def until_interrupt(self, seconds: float) -> bool:
@@ -75,7 +75,7 @@ class PartAccess:
 
 @dataclass(frozen=True)
 class Section:
-    """Test that is recorded and compared as a unit; it begins with a reset of the part.
+    """A test that is recorded and compared as a unit; it begins with a reset of the part.
 
     Attributes:
         what: REGISTERS, COMMANDS, MOVES or SWITCHES.

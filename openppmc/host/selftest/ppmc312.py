@@ -21,7 +21,7 @@ LAYOUT = (
     *(("aclr_n", 1), ("zclmp_n", 1), ("cd_n", 1), ("pout", 1), ("dir", 1), ("intlk_n", 1), ("out_oe", 1)),
 )
 SETTING = blocks.free_curve(3, [200, 300, 400], [6, 5, 4])
-"""Free curve from 2500 to 5000 pps in 15 pulses. A linear table would require several hundred pulses."""
+"""A free curve from 2500 to 5000 pps in 15 pulses. A linear table would require several hundred pulses."""
 LINEAR = [blocks.initial_setting(0, 2000, 800, 1000)]
 PULSES = 40
 END_S = 3.0

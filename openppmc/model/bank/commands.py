@@ -27,7 +27,7 @@ RetryEdge = Callable[[int, bool], int | None]
 
 
 class Mailbox:
-    """Input buffer and output queue.
+    """The input buffer and the output queue of an axis.
 
     Args:
         take: take(t, byte, is_command) passes an accepted byte to the command unit.

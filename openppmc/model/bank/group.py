@@ -18,7 +18,7 @@ HOST_PINS = ("a", "cs_n", "rd_n", "wr_n", "d_i")
 SWITCHES = GUARD.all
 PHASES = 5
 AT_REST = {"pout_n": 1, "dir": 0, "hold": 1}
-"""Reset levels of the motor pins of one axis, except `s`."""
+"""The reset levels of the motor pins of one axis, except `s`."""
 
 
 def inputs(axes: int) -> dict[str, int]:
@@ -53,7 +53,7 @@ class Member(Protocol):
 
 
 class Group:
-    """Group registers of a bank.
+    """The group registers of a bank.
 
     Attributes:
         mask: value that a read of MASK returns; bit i = axis i.

@@ -1,4 +1,4 @@
-"""Script engine of the bridge's golden model.
+"""The script engine of the bridge's golden model.
 
 Rules: UB-ANS-02..05, UB-OPS, UB-WAIT and the table of operations ("Ops").
 

@@ -16,7 +16,7 @@ BLANK = 0xFF
 
 
 class Written(NamedTuple):
-    """Page write: edge of its STOP, address of its first byte, and its bytes in order of reception."""
+    """A page write: edge of its STOP, address of its first byte, and its bytes in order of reception."""
 
     t: int
     address: int

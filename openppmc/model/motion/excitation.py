@@ -53,7 +53,7 @@ def step_directions() -> dict[tuple[int, int], int]:
 
 
 class Excitation:
-    """Index and output levels of the phase pins.
+    """The index and the output levels of the phase pins.
 
     Args:
         idle: level of all five pins until the first initialisation (P104-PHS-02).

@@ -100,7 +100,7 @@ class Motion:
     def _latch_settings(
         self, command: Command, data: list[int], setup: Setup, csel: int, plain: bool
     ) -> None:
-        """Latch an operation at its C-event (P104-OPR-01, P104-BCK-02).
+        """Latch an operation when its last byte is consumed (P104-OPR-01, P104-BCK-02).
 
         Args:
             data: data bytes of the operation: rate, then count.

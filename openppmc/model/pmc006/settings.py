@@ -93,7 +93,7 @@ PLACES: dict[str, tuple[int, int]] = {
     "scomp": (18, 2),
     "cur": (20, 2),
 }
-"""Place in the page and number of bytes of each saved register."""
+"""For each saved register, its position in the page and its number of bytes."""
 
 
 def page_of(settings: Settings) -> bytes:

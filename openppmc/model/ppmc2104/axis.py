@@ -161,7 +161,7 @@ class Motion(motion.Motion):
     # ------------------------------------------------------------------ start
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, run_sampled_from: int) -> None:
-        """Process the C-event of the last byte of an operation.
+        """Process an operation whose last byte is consumed at edge t (its C-event).
 
         Args:
             run_sampled_from: first edge at which RUN is sampled.

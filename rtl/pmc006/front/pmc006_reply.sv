@@ -14,7 +14,7 @@ module pmc006_reply
     input wire logic sample_i,  // strobe: sample the reply data
     input wire exec_cmd_t cmd_i,  // the instruction
     input wire logic accepted_i,  // 1: the instruction (s, t, B, E, W, G, z) was accepted
-    input wire logic [13:0] value_i,  // register of cmd_i, or 0; valid after sample_i
+    input wire logic [13:0] value_i,  // value of the register of cmd_i, 0 if none; valid after sample_i
     input wire motor_settings_t settings_i,  // parameter registers
     input wire control_settings_t control_i,  // settings used only by the control
     input wire logic speed_mode_i,  // register SPEED_MODE

@@ -2,8 +2,8 @@
 // pmc006_program: executes the user program. Contains the current line, the counter, the compare flag,
 //         WAIT, and the RESET and PAUSE keys.
 // Rules:  P006-PRG-02/10..17/20/30..33, P006-CMD-01..05/18/47, P006-BAD-11/16..19/23.
-// Timing: instructions start at least 48 cycles apart. WAIT ends at the edge that ends the cycle in which
-//         the signal that WAIT selects (its source) has the requested level.
+// Timing: instructions start at least 48 cycles apart. WAIT selects a signal (its source), and ends at the
+//         end of the cycle in which this signal has the requested level.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -15,7 +15,7 @@ module pmc006_settings
     input  wire logic                sample_i,    // strobe: sample the value for the reply
     output motor_settings_t          settings_o,  // settings used by motion and drive
     output control_settings_t        control_o,   // settings used only by the control
-    output logic              [13:0] value_o      // register of access_i at the last sample_i, or 0
+    output logic              [13:0] value_o      // value of access_i.reg_id at the last sample_i; RegNone: 0
 );
 
   logic [13:0] data;

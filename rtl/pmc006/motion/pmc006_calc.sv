@@ -44,7 +44,7 @@ module pmc006_calc
 );
 
 
-  instr_t instr, ir_q;  // instr: fetched instruction; ir_q: one cycle later, for execution
+  instr_t instr, ir_q;  // instr: fetched instruction; ir_q: register that stores instr for its execution
   logic run_q, read_q, no_operand, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] steps_left_q, steps;

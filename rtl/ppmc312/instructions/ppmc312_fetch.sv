@@ -52,8 +52,8 @@ module ppmc312_fetch
       (block_o.code inside {I_MOVE, I_HALT, I_DECEL} && block_o.len == 8'd6 && at_q >= 5'd4);
   assign index = at_q[3:0] - (shifted ? 4'd1 : 4'd3);
 
-  // Without a separate deceleration side, the stop rate is equal to the start-up rate, and the deceleration
-  // has the number of pulses of the acceleration.
+  // one_side: an initial setting describes only one ramp, for acceleration and deceleration. The stop rate is
+  // then equal to the start-up rate, and the deceleration pulses are equal to the acceleration pulses.
   assign one_side = block_o.code == I_INIT && !block_o.par[0][4];
 
   always_comb begin

@@ -99,7 +99,7 @@ module ppmc312_free_curve
 
   // No reset: open_i initialises the registers of a transfer, data_i those of a block.
   always_ff @(posedge clk_i) begin
-    // Without a separate deceleration side, the deceleration uses the pulse numbers of the acceleration.
+    // If the curve has no deceleration pulses of its own, the deceleration uses those of the acceleration.
     if (open_i || (list_done && next_list_o == 2'd1 && split_q)) dec_sum_o <= '0;
     else if (whole && !rates) dec_sum_o <= sum[23:0];
     if (open_i) begin

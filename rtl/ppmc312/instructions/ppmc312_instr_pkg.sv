@@ -29,7 +29,7 @@ package ppmc312_instr_pkg;
     TailNone,
     TailPos,    // 4 bytes: a position
     TailCodes,  // 4 bytes: codes of an event buffer
-    TailSums    // 6 bytes: pulses of both sides of the table
+    TailSums    // 6 bytes: sums of the acceleration and deceleration pulses of the table
   } response_tail_e;
 
   // Data that an executed instruction returns: the bytes after the code in its response.

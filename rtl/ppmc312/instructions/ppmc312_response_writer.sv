@@ -20,11 +20,11 @@ module ppmc312_response_writer
     output logic done_o,  // strobe: the response is written
     // sources of the last bytes
     input wire logic [31:0] value_i,  // TailPos: position
-    input wire logic [5:0][7:0] sums_i,  // TailSums: pulses of both sides of the table
+    input wire logic [5:0][7:0] sums_i,  // TailSums: sums of the acceleration and deceleration pulses
     input wire logic [2:0] codes_i,  // TailCodes: number of codes
     output logic peek_o,  // TailCodes; 1: a code is requested
     output logic [1:0] peek_at_o,  // TailCodes: entry of this code
-    input wire logic [7:0] code_i,  // code of entry peek_at_o, two cycles later
+    input wire logic [7:0] code_i,  // code of the entry that peek_at_o selected two cycles earlier
     // bytes of the instruction
     output logic [BLOCK_BITS-1:0] echo_addr_o,  // byte number, 0 = header
     input wire logic [7:0] echo_data_i,  // byte at echo_addr_o, two cycles later

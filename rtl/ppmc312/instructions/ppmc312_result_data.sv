@@ -22,7 +22,7 @@ module ppmc312_result_data
     input  wire logic          [ 6:0] first_i,         // first used stage of the table
     input  wire queue_status_t        queue_status_i,  // contents of the instruction queue
     input  wire logic                 hold_i,          // 1: value_o keeps its value
-    output result_data_t              result_data_o,   // data of block_i, one cycle later
+    output result_data_t              result_data_o,   // data of block_i, delayed by one cycle
     output logic               [31:0] value_o          // position for TailPos, one cycle after block_i
 );
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_table_read: writes the data blocks of a table read. The blocks contain a list of rates, a list of
-//         acceleration pulses and, if the table has separate sides, a list of deceleration pulses. Each list
-//         begins with the fastest stage.
+//         acceleration pulses and, if the table has deceleration pulses of its own, a list of these. Each
+//         list begins with the fastest stage.
 // Rules:  P312-CMD-41.
 // Timing: next_i starts the next block. A block of n stages takes 5 n + 1 cycles for rates, 6 n + 1 cycles
 //         for pulses. done_o is asserted in the last cycle.

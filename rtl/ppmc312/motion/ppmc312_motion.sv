@@ -3,10 +3,10 @@
 //         gate, the pulses, both phases of a zero return, the cause of the end and the status of the
 //         device.
 // Rules:  P312-MOT-01/06/30/34/35, P312-MOT-40..43, P312-STA-01..04, P312-INP-10/12/20/30/32, P312-OVR-12.
-// Timing: t0 is the edge that ends the cycle of motion_req_i.start or, for a start that the gate holds, the
-//         cycle in which the gate opens. A pin or a stop acts in the cycle in which it is sampled: no pulse
-//         begins in this cycle. pout_o and dir_o are registered. counted_o is high in the first cycle after
-//         the rise of pout_o.
+// Timing: t0 is the edge that ends the cycle of motion_req_i.start. If the gate holds the start, t0 is the
+//         edge that ends the cycle in which the gate opens. A pin or a stop acts in the cycle in which
+//         it is sampled: no pulse begins in this cycle. pout_o and dir_o are registered. counted_o is high in
+//         the first cycle after the rise of pout_o.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -101,7 +101,8 @@ module ppmc312_position
   // No reset: the ranges are set before use; the other registers follow their inputs.
   always_ff @(posedge clk_i) begin
     diff_q <= pos_o - enc_o;
-    // The magnitude of a negative difference is its inverted value plus one. `margin` adds this one.
+    // size_q is the magnitude of the difference or, if the difference is negative, the magnitude - 1, because
+    // the bits are only inverted. In both cases, `margin` is 2**16 + range - magnitude.
     negative_q <= diff_q[31];
     size_q <= diff_q[15:0] ^ {16{diff_q[31]}};
     large_q <= diff_q[31:16] != {16{diff_q[31]}};

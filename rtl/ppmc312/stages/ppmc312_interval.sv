@@ -80,7 +80,6 @@ module ppmc312_interval #(
     tick = external ? edge_now : quantum && rest_q;
   end
 
-  // A base clock that occurs in the cycle of a pulse belongs to the previous interval.
   assign min_gap = age_q[2];
   assign elapsed_now = tick && left_q == RateBits'(1);
   assign elapsed = elapsed_now || past_q;
@@ -111,6 +110,7 @@ module ppmc312_interval #(
       end else if (fire_i) begin
         past_q <= 1'b0;
         age_q  <= 3'd1;
+        // A tick in the cycle in which a pulse begins belongs to the previous interval and is not counted.
         left_q <= rate_i;
         half_q <= RateBits'(((RateBits + 1)'(rate_i) + (RateBits + 1)'(3)) >> 1);
       end else begin

@@ -9,7 +9,7 @@ from scripts.fpga.boards.carrier import Carrier, Port
 from scripts.fpga.boards.description import Carried, Description
 
 HOST_RESET = "host_rst_n"
-"""Reset input from the host of a bus, active low; it is not a port of a carrier."""
+"""The reset input from the host of a bus, active low; it is not a port of a carrier."""
 
 
 @dataclass(frozen=True)

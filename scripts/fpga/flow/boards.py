@@ -1,4 +1,4 @@
-"""Build flow from the top of a board to its bitstream file."""
+"""The steps that build the bitstream file of a board from its top."""
 
 from __future__ import annotations
 

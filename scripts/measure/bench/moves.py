@@ -34,7 +34,7 @@ SETUPS: dict[str, tuple[int, int, int]] = {
     "bank": (100_000, 200_000, 4),
     "ppmc312": (40_000, 400_000, 1_400),
 }
-"""Start speed, high speed and ramp length for each part."""
+"""For each part: start speed and high speed in pulses/s, ramp length."""
 HEADS = [
     "part",
     "way",

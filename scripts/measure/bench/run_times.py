@@ -1,4 +1,4 @@
-"""Run times of a demo in three programs ("sides"): RTL with cocotb, RTL in Verilator alone, golden model.
+"""The run times of a demo in three programs ("sides"): RTL with cocotb, RTL in Verilator alone, golden model.
 
 In each turn, every side runs once. Thus, other load on the machine has little effect on the ratios of a turn.
 """

@@ -11,7 +11,7 @@ from scripts.measure.fire.boards import TARGETS
 from scripts.measure.fire.line import DELAYS, Fault, FaultyLine, Hang, Killed
 
 LONGEST_CALL = 40.0
-"""Longest time of a call of the driver in s, on the clock of the line."""
+"""Longest time of a call of the driver in s, measured with the clock of the line."""
 AS_REQUESTED, KILLED = "as requested", "killed"
 Span = tuple[int, int]
 

@@ -71,7 +71,10 @@ def difference(name: str, line: Line, words: array[int]) -> tuple[int, str] | No
 
 
 def shrink_report(name: str, line: Line, words: array[int]) -> str:
-    """Return a difference as text, with the words up to it; first words that do not matter are removed."""
+    """Return a difference as text, with the words up to it.
+
+    Words at the beginning that are not needed to produce a difference are removed.
+    """
     found = difference(name, line, words)
     assert found is not None
     words = words[: found[0] + 1]

@@ -2,7 +2,7 @@
 
 A file of the RTL has its mutants by name. An entry has these keys:
     old     the text to replace, which occurs exactly once in the file
-    new     the text in its place
+    new     the text that replaces `old`
     caught  the test that must fail
     by      what detects the mutant: *check* (an assertion of the test itself, the default), *comparison*
             (only the edges differ from the golden model's) or *assertion* (of the RTL)
@@ -32,7 +32,7 @@ MAIN_BUILD = {"pmc006": "f8b", "bank": "b8"}
 
 @dataclass(frozen=True)
 class Mutant:
-    """One entry; `name` is unique in its part."""
+    """One entry; no other entry of the same part has this `name`."""
 
     part: str
     name: str

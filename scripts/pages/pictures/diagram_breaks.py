@@ -81,7 +81,10 @@ def _nearest(areas: Iterable[Area], taken: list[Area]) -> Area | None:
 
 
 def _in_boxes(root: ET.Element, signal: list[Any], step: int, taken: list[Area]) -> Iterator[Area]:
-    """Move the texts of boxes within their boxes; yield their areas."""
+    """Move the text of each box sideways within this box, away from the areas in `taken`; yield its new area.
+
+    If no place is free, the text does not move, and the marks that it covers are removed.
+    """
     for number, lane in enumerate(lanes(signal)):
         drawn = _named(root, f"wavelane_draw_{number}_0")
         texts = [] if drawn is None else drawn.findall(f"{{{SVG}}}text")
@@ -117,7 +120,11 @@ def _along(path: str) -> Iterator[tuple[float, float]]:
 
 
 def _on_arrows(root: ET.Element, marked: list[Area], texts: list[Area]) -> None:
-    """Move the texts of arrows along the arrows."""
+    """Move the text of each arrow along this arrow, away from the break marks and the other texts.
+
+    If no place is free of both, the text may cover another text. If no place is free of marks, the text is in
+    the middle of the arrow, and the marks that it covers are removed.
+    """
     arcs = _named(root, "wavearcs_0")
     path = ""
     for node in [] if arcs is None else arcs:

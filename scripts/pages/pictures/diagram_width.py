@@ -106,7 +106,7 @@ def readable(drawing: dict[str, Any], step: int) -> bool:
 def _cut(lane: Lane, first: int, end: int) -> Lane:
     """Return columns `first` to `end` - 1 of a line.
 
-    The first of them states its level, even if the line only continues an earlier level in that column.
+    The first of these columns states its level, even if the line only continues an earlier level there.
     """
     if "wave" not in lane:
         return {**lane, "node": lane["node"][first:end]} if "node" in lane else lane

@@ -21,8 +21,8 @@ module ppmc_bank_window_fv
     input wire logic respond_i,  // 1: the engine responds to the byte that it accepts
     input wire logic three_bytes_i,  // 1: the response has three bytes
     input wire logic [23:0] read_data_bytes_i,
-    input wire logic [6:0] other_status_i,  // status of all axes, except ack_seq of the watched axis
-    input wire logic [1:0] position_i,  // position of every axis
+    input wire logic [6:0] other_status_i,  // status of every axis; ack_seq of the watched axis is separate
+    input wire logic [1:0] position_i,  // position of every axis (the same value)
     input wire logic [3:0] map_i  // pending interrupts
 );
 

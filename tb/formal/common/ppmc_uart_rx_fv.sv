@@ -44,7 +44,7 @@ module ppmc_uart_rx_fv (
   // bit. After a fault on the line, the phase at the start bit is arbitrary.
   logic [6:0] age_q;
   logic [7:0] phases;
-  logic [3:0] first_q, first;  // first: phase at the start bit; first_q: one cycle later
+  logic [3:0] first_q, first;  // first: phase at the start bit; first_q: register that stores first
   logic busy;
 
   assign busy   = dut.state_q == 1 || dut.state_q == 2;

@@ -51,7 +51,7 @@ def test_busy_port(board: SimBoard) -> None:
 
 
 class NonBridgeDevice:
-    """A pseudo-terminal at which a device responds that is not a board."""
+    """A pseudo-terminal with a device that responds, but is not a board."""
 
     def __init__(self, reply: Reply) -> None:
         self._reply = reply

@@ -83,7 +83,9 @@ def test_figures_and_holes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_explained_holes_fit_the_tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each text of holes.yml is in its file; a text that is not there is reported in one line."""
+    """Each entry of holes.yml gives a reason. An entry whose line or function is no longer in the source file
+    that it names is reported in one line.
+    """
     assert all(entry["why"] for entry in sums.explained())
     monkeypatch.setattr(sums, "HOLES", tmp_path / "holes.yml")
     sums.HOLES.write_text(f"- {{file: {FILE}, line: no such line, why: none}}", encoding="utf-8")

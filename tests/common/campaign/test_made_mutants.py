@@ -172,5 +172,5 @@ def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_judged_mutants_fit_the_tree() -> None:
-    """Each text of judged.yml is in its file and has a reason."""
+    """Each entry of judged.yml names a line that the source file still contains, and gives a reason."""
     assert all(page.judged().values())

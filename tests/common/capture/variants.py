@@ -14,7 +14,7 @@ from .analyser import PS, Seen, samples, write_saleae, write_vcd
 
 RATE = 24_000_000
 PERIOD = 41
-"""Sample period in ns that sigrok prints: 41.67, truncated."""
+"""The sample period in ns that sigrok prints: 41.67, truncated."""
 
 
 def exact(seen: Seen, rate: int = RATE) -> Seen:

@@ -12,7 +12,9 @@ EVERY = list(mutants())
 
 @pytest.mark.parametrize("mutant", [pytest.param(one, id=one.id) for one in EVERY])
 def test_a_mutant_fits_the_tree(mutant: Mutant) -> None:
-    """A mutant's old text occurs once in its file; the new text differs, and its tests simulate the file."""
+    """The old text of a mutant occurs once in the source file that the mutant changes; the new text differs,
+    and the tests of the mutant simulate this file.
+    """
     assert mutant.new != mutant.old
     mutant.source()
     items = mutant.items()

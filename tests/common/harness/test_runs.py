@@ -113,8 +113,9 @@ def test_a_mutant_needs_no_rest_of_a_group(design: Design, end: str, monkeypatch
     ],
 )
 def test_a_failure_is_shown(design: Design, name: str, words: str) -> None:
-    """The message has the test, the values or line, and the command that repeats it; it does not doubt that
-    the failure can be reproduced.
+    """The message names the test, shows the compared values or the failing line, and contains the command
+    that repeats the test. It does not state that the failure was not reproduced, or occurs only after other
+    tests.
     """
     text = said(design, "passes", name, OPENPPMC_WALL_S="6")
     assert text.startswith(f"{ITEMS[name].id}: ") and re.search(words, text), text

@@ -1,4 +1,4 @@
-"""Pin changes from two sources: changes that a golden model has already received keep their places in the
+"""The pin changes from two sources: changes that a golden model has already received keep their places in the
 list.
 """
 

@@ -182,7 +182,7 @@ COMMANDS = {
 FREE = dict.fromkeys(COMMANDS, ",ccw=-900000,slow_ccw=-800000,cw=900000,slow_cw=800000") | {
     "pmc006": ",start=0"
 }
-"""Switch positions that no motor reaches."""
+"""Options that put the switches at positions that no motor reaches."""
 for _name, _axes in (("ppmc2104", [2]), ("bank", [2])):
     for _axis in _axes:
         FREE[_name] += f",ccw{_axis}=-900000,slow_ccw{_axis}=-800000,cw{_axis}=900000,slow_cw{_axis}=800000"

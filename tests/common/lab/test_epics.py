@@ -48,7 +48,7 @@ class Ended(Exception):  # noqa: N818 - not an error
 
 
 class Records:
-    """Motor records of an IOC in this process, and the lines that the IOC has logged.
+    """The motor records of an IOC in this process, and the lines that the IOC has logged.
 
     Args:
         axes: number of the axes; None: all.

@@ -1,4 +1,4 @@
-"""Project scripts of boards for vendors' tools, run with stubs of the tools' commands (D-132)."""
+"""The project scripts of boards for vendors' tools, run with stubs of the tools' commands (D-132)."""
 
 from __future__ import annotations
 

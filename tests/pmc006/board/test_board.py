@@ -168,7 +168,7 @@ def test_real_time_and_pace() -> None:
 
 def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
     """`--port sim` starts a line for one command."""
-    # builds the line, so that the command below does not print that it builds it
+    # The line is built here, so that the command below prints nothing about a build.
     start_line("part=pmc006,address=4+5,speed=max").close()
     code, out, err = openppmc.run("sim:address=4+5,speed=max", *PART, "move", "20", "-a", "4,5")
     assert (code, err) == (0, "") and out == (

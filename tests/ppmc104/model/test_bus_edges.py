@@ -62,8 +62,8 @@ def test_read_strobe_ends_a_write():
 
 
 def test_replacement_in_the_window_and_on_the_c_event_edge():
-    """If a byte is replaced while it waits, only the newer byte is accepted; if it is replaced on the edge of
-    its C-event, both are accepted, the older one first (P104-HSK-02).
+    """If a byte is replaced while it waits, only the newer byte is accepted. If it is replaced on the edge on
+    which it is consumed (its C-event), both bytes are accepted, the older one first (P104-HSK-02).
     """
     model = AnyModel(latency=replace(NOMINAL, build_clk=lambda rl, rh, pa: 500))
     t = 10

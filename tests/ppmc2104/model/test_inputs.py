@@ -105,8 +105,8 @@ def test_slow_limit_and_deceleration_stop_on_one_edge():
         host.run(LONG)
         host.fall(during, after=200)
         event = host.write(1, 0x41)
-        # The C-event is 2 edges after the write event; a level is detected 2 cycles after the edge that
-        # samples it.
+        # The byte is consumed (C-event) 2 edges after the write event; a level is detected 2 cycles after the
+        # edge that samples it.
         host.model.pins(event, fhl_n=0b10)
         assert host.end()[0] == 0xCB and len(host.pulses()) == pulses
         assert host.run("e1") == [0]

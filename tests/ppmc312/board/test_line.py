@@ -85,7 +85,7 @@ def test_real_time_and_pace() -> None:
 
 def test_port_sim_in_one_go(openppmc: CommandLine) -> None:
     """`--port sim` starts a line for one command."""
-    # builds the line, so that the command below does not print that it builds it
+    # The line is built here, so that the command below prints nothing about a build.
     start_line("stations=2").close()
     code, out, err = openppmc.run("sim:stations=2,speed=max", *PART, "poll", "--axis", "0,1", "--count", "1")
     assert (code, out, err) == (0, "station 0: ready\nstation 1: ready\n", "")

@@ -52,8 +52,8 @@ from openppmc.model.ppmc312.codes import Source, State
 from tests.common.host.line_ports import Played
 
 FAST = (4000, 8000, 600)
-"""Start speed and high speed in pulses/s, and ramp in pulses, of a table whose motions need little simulation
-time.
+"""The start speed and the high speed in pulses/s, and the ramp in pulses, of a table whose motions need
+little simulation time.
 """
 SPEED = 83_333
 

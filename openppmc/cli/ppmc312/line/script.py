@@ -1,4 +1,4 @@
-"""Script files for a line of PPMC-312.
+"""The script files for a line of PPMC-312.
 
 The commands are the same as for a board, but each command names its station.
 """

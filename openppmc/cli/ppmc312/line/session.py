@@ -1,4 +1,4 @@
-"""Line of PPMC-312 that a command has opened."""
+"""The line of PPMC-312 that a command has opened."""
 
 from __future__ import annotations
 

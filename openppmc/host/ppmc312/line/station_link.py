@@ -85,10 +85,13 @@ class StationAccess(Protocol):
 
 
 class LostReplyResolver:
-    """Check of one instruction block after its reply was lost.
+    """Decides whether one instruction block was executed although its reply was lost.
+
+    The object must be created before the block is sent, because it compares the states of the station before
+    and after.
 
     Attributes:
-        repeated: True if a reply to the instruction was lost.
+        repeated: True if at least one reply was lost, so that the block may have been sent more than once.
     """
 
     def __init__(self, station: StationAccess, block: bytes) -> None:
@@ -207,7 +210,7 @@ class Station(StationAccess, Protocol):
 
 
 class StationLink:
-    """Transport of instructions to a station; see `ppmc312.core.Instructions`.
+    """The transport of instructions to a station; see `ppmc312.core.Instructions`.
 
     Attributes:
         answers: number of responses of the station so far.

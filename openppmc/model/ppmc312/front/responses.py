@@ -28,7 +28,7 @@ def block(header: int, *content: int | bytes) -> bytes:
 
 @dataclass
 class Report:
-    """Report or response.
+    """A report or a response.
 
     `blocks` contains the blocks that the host has not read yet, in logical order.
 

@@ -32,7 +32,7 @@ class Outcome(Enum):
 
 
 class Frame(NamedTuple):
-    """Complete frame. The frame of an instruction has a code and data."""
+    """A complete frame. The frame of an instruction has a code and data."""
 
     outcome: Outcome
     code: int = 0

@@ -21,7 +21,7 @@ LIMITS, SLOW_LIMITS = ("fl_n", "bl_n"), ("fhl_n", "bhl_n")
 
 @dataclass(slots=True)
 class MotionRequest:
-    """Request of an operation.
+    """A request of an operation.
 
     Attributes:
         target: rate that is compared with the high-speed limit before the start.
@@ -39,7 +39,7 @@ class MotionRequest:
 
 
 class Motion:
-    """Pulse output.
+    """The pulse output of the part.
 
     Args:
         pins: levels of the guarded inputs for decisions.
@@ -47,8 +47,7 @@ class Motion:
         on_count: on_count(t, direction) is called when POS counts a pulse.
         on_compare: on_compare(t, direction) is called when POS is compared. It returns True if an override
             stops the pulses at this position (P312-OVR-12).
-        overrides_done: overrides_done() returns True if all instructions for which a stop at a position waits
-            have been processed.
+        overrides_done: see `Operation`.
         on_end: on_end(t, cause) is called when the pulse output has ended, or with Cause.RETURN after phase 1
             of a zero return.
     """

@@ -26,11 +26,13 @@ class Operation:
 
     Args:
         pins: input levels that decisions use.
-        alarm: alarm(t, status) is called on a multiple occurrence (P312-RSP-20).
+        alarm: alarm(t, status) is called when a report is discarded because the store of its class is full
+            (P312-RSP-20).
         on_pulses_ended: on_pulses_ended(t) is called after each change of the position, and when the pulse
             output has ended.
-        overrides_done: overrides_done() returns False if a stop that was registered for a position has ended
-            the pulses there, but has not been processed yet.
+        overrides_done: overrides_done() returns True if all overrides whose triggers have occurred are
+            processed and no alarm is pending; in state ABN, it always returns True. If an override has ended
+            the pulses at its position, the motion ends only when the function returns True.
         abnormal: abnormal() returns True in state ABN.
 
     Attributes:

@@ -16,7 +16,7 @@ _ORDER = (Cause.LIMIT_SLOW, Cause.SLOW, Cause.RETURN)
 
 
 class Change(NamedTuple):
-    """Change of speed: target rate, with a ramp (instruction 87) or immediately (instruction 88)."""
+    """A change of speed: target rate, with a ramp (instruction 87) or immediately (instruction 88)."""
 
     rate: int
     ramp: bool

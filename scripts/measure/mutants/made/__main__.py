@@ -1,8 +1,8 @@
 """`make mutate`: run proofs and tests on each mutant of rtl/ until one fails.
 
 It writes docs/mutants.md if all folders are included, else build/mutants.md. A killed mutant is not tried
-again while its file is unchanged; survivors are tried again when the sources have changed. The exit code is 1
-if a mutant does not compile, or if a folder's score is below its goal.
+again while the source file that it mutates is unchanged; survivors are tried again when the sources have
+changed. The exit code is 1 if a mutant does not compile, or if a folder's score is below its goal.
 """
 
 from __future__ import annotations

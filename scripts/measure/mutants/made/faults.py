@@ -47,7 +47,7 @@ class Fault:
 
     Attributes:
         dropped: True if the statement at this place is removed.
-        number: number of the mutant in its file, counted from 1.
+        number: number of the mutant among those of the same source file, counted from 1.
         what: description of the fault, for tables.
     """
 

@@ -64,7 +64,7 @@ def lines(file: str) -> list[str]:
 
 @cache
 def judged() -> Mapping[tuple[str, str, str], str]:
-    """Return the entries of judged.yml; raise ProjectError if a text is no longer in its file."""
+    """Return the entries of judged.yml; raise ProjectError if one names a line that no longer exists."""
     entries = yaml.safe_load(JUDGED.read_text(encoding="utf-8")) or []
     for entry in entries:
         if not any(entry["line"] == line.strip() for line in lines(entry["file"])):

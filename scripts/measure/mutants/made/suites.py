@@ -119,7 +119,7 @@ class Suites:
 
 
 def _together(all_groups: Sequence[Group], size: int) -> Iterator[Group]:
-    """Join every `size` groups into one, in their order."""
+    """Join every `size` successive groups into one; the order of the tests does not change."""
     for at in range(0, len(all_groups), size):
         yield tuple(test for group in all_groups[at : at + size] for test in group)
 
