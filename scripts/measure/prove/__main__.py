@@ -1,9 +1,9 @@
 """Prove properties of the RTL blocks: `python -m scripts.measure.prove [NAME,...]`.
 
 Without a name, it runs the quick proofs whose RTL or properties have changed since the proof last held
-(docs/proved.json). With `--fresh`, it runs all quick proofs, with `--night` all proofs. `--break` changes the
-RTL of each proof as the entry `breaks` states, and expects the proof to fail. The exit code is 1 if a result
-differs from the expected one.
+(docs/proved.json). With `--fresh`, it runs all quick proofs, with `--night` all proofs. `--break` makes each
+change of RTL that the entry `breaks` of a proof states, and expects the proof to fail. The exit code is 1 if
+a result differs from the expected one.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from cocotb_tests.harness.project import console, run
 from scripts.measure.prove.check import LIMIT, Outcome, check
 from scripts.measure.prove.engine import abc
 from scripts.measure.prove.results import changed, keep
-from scripts.measure.prove.table import chosen
+from scripts.measure.prove.table import Change, chosen
 
 
-def line(outcome: Outcome, breaking: bool) -> str:
+def line(outcome: Outcome, change: Change | None) -> str:
     """Return the line that is printed for the outcome of a proof."""
     took = f"{outcome.seconds:.1f} s"
-    if breaking:
-        found_text = "found     " if outcome.refuted else "NOT FOUND "
-        return f"{found_text} {outcome.name}: {outcome.trouble or 'all properties hold'} ({took})"
+    if change:
+        found = f"{'found     ' if outcome.refuted else 'NOT FOUND '} {outcome.name}.{change.name}"
+        return f"{found}: {outcome.trouble or 'all properties hold'} ({took})"
     if outcome.trouble:
         again = f"\n         again: make prove T={outcome.name}"
         return f"FAILED   {outcome.name}: {outcome.trouble} ({took}){again}"
@@ -52,6 +52,7 @@ def main() -> int:
     if not (args.names or args.night or args.fresh or args.breaking):
         todo = changed(todo)
     abc()
+    runs = [(proof, change) for proof in todo for change in (proof.broken() if args.breaking else [None])]
     bad = 0
     shown = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn()
     # Threads are sufficient, because each thread waits for another program.
@@ -59,21 +60,19 @@ def main() -> int:
         ThreadPoolExecutor(args.n) as pool,
         Progress(*shown, console=console, disable=not console.is_terminal) as progress,
     ):
-        task = progress.add_task("breaking" if args.breaking else "proving", total=len(todo))
-        jobs = {
-            pool.submit(check, proof, args.limit, proof.broken() if args.breaking else None): proof
-            for proof in todo
-        }
+        task = progress.add_task("breaking" if args.breaking else "proving", total=len(runs))
+        jobs = {pool.submit(check, proof, args.limit, change): (proof, change) for proof, change in runs}
         for job in as_completed(jobs):
             outcome = job.result()
-            console.print(line(outcome, args.breaking), markup=False, soft_wrap=True)
-            bad += not (outcome.refuted if args.breaking else outcome.good)
+            proof, change = jobs[job]
+            console.print(line(outcome, change), markup=False, soft_wrap=True)
+            bad += not (outcome.refuted if change else outcome.good)
             progress.advance(task)
-            if not args.breaking:
-                keep(outcome, jobs[job])
+            if not change:
+                keep(outcome, proof)
     what = "found" if args.breaking else "proved"
     console.print(
-        f"{len(todo) - bad} of {len(todo)} {what}, {every - len(todo)} unchanged since they were proved"
+        f"{len(runs) - bad} of {len(runs)} {what}, {every - len(todo)} unchanged since they were proved"
     )
     return 1 if bad else 0
 

@@ -3,7 +3,7 @@
 An entry has `says` (the proved properties, one on each line), `rules` (IDs, may be empty), `group` of
 rtl/files.yml whose sources it needs, `cover` (number of cycles from reset in which its covers must be
 reached), and `breaks`: a change of one RTL file (`file`, `old`, which occurs there once, `new`) that makes
-the proof fail. Optional:
+the proof fail, or a list of such changes, each of which makes the proof fail. Optional:
 
 `block`    the module, if its name differs from that of the entry
 `wrapper`  the module with the properties, without _fv, if its name differs from that of the entry
@@ -52,7 +52,7 @@ class Proof:
     says: tuple[str, ...]
     group: str
     cover: int
-    breaks: dict[str, str]
+    breaks: tuple[dict[str, str], ...]
     rules: tuple[str, ...] = ()
     block: str = ""
     bound: int = 0
@@ -79,12 +79,16 @@ class Proof:
         place = {path: stubs[path.name] for path in files(self.group) if path.name in stubs} | dict(changed)
         return [*(place.get(path, path) for path in files(self.group)), self.file]
 
-    def broken(self) -> Change:
-        """Return the change of `breaks`; raise ProjectError unless the old text occurs exactly once."""
-        text = (ROOT / self.breaks["file"]).read_text(encoding="utf-8")
-        if (times := text.count(self.breaks["old"])) != 1:
-            raise ProjectError(f"{self.name}: {self.breaks['file']} has {times} times {self.breaks['old']!r}")
-        return Change("broken", self.breaks["file"], text.replace(self.breaks["old"], self.breaks["new"]))
+    def broken(self) -> list[Change]:
+        """Return the changes of `breaks`; raise ProjectError unless each old text occurs exactly once."""
+        changes = []
+        for number, one in enumerate(self.breaks, 1):
+            text = (ROOT / one["file"]).read_text(encoding="utf-8")
+            if (times := text.count(one["old"])) != 1:
+                raise ProjectError(f"{self.name}: {one['file']} has {times} times {one['old']!r}")
+            name = f"broken{number}" if len(self.breaks) > 1 else "broken"
+            changes.append(Change(name, one["file"], text.replace(one["old"], one["new"])))
+        return changes
 
 
 def proofs() -> Iterator[Proof]:
@@ -93,6 +97,8 @@ def proofs() -> Iterator[Proof]:
         for name, entry in (yaml.safe_load(path.read_text(encoding="utf-8")) or {}).items():
             for key in ("says", "rules", "only", "stubs"):
                 entry[key] = tuple(entry.get(key, ()))
+            breaks = entry["breaks"]
+            entry["breaks"] = tuple(breaks) if isinstance(breaks, list) else (breaks,)
             entry.setdefault("block", name)
             yield Proof(path.stem, name, **entry)
 

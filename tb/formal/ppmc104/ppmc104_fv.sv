@@ -47,15 +47,16 @@ module ppmc104_fv
       .*
   );
 
-  logic limit_cw_n, limit_ccw_n, alarm_n, ccw, moved, is_read, pins_at_rest, pout_nq;
+  logic pout_nq;
 
   `include "single/ppmc_single_part.svh"
+  `include "single/ppmc_axis_part.svh"
 
   assign limit_cw_n = l1_n;
   assign limit_ccw_n = l2_n;
   assign alarm_n = alm_n;
-  assign ccw = dir;
   assign moved = pout_nq && !pout_n;
+  assign positive_now = code_q[3];
   assign is_read = wr_a0 && wr_data[7:3] == 5'b10000 && wr_data[2:0] inside {3'd0, 3'd1, 3'd2, 3'd3, 3'd5};
   assign pins_at_rest = pout_n && s == '1 && !dir && int_n && !d_oe && aux_n && auxo == '1;
 
@@ -64,8 +65,9 @@ module ppmc104_fv
     else pout_nq <= pout_n;
 
   `FV_ASSERT(no_pulse_at_standstill, pout_n || busy_h[0])
+  `FV_ASSERT(no_pulse_with_wrong_dir, pout_n || dir == ccw_q)
 
-  `FV_COVER(seen_limit, blocked_q && dir && busy_h[1])
+  `FV_COVER(seen_limit, blocked_q && ccw_q && busy_h[1])
   `FV_COVER(seen_answer, load && complete_q)
   `FV_COVER(seen_step, moved && index_q == 4'd2)
   `FV_COVER(ready_seen, alarm_age_q > 6'd40 && busy_h[0] && !motion.busy && complete_q)

@@ -44,16 +44,16 @@ module stmc_fv
       .*
   );
 
-  logic limit_cw_n, limit_ccw_n, alarm_n, ccw, moved, is_read, pins_at_rest;
   logic [4:0] lines_hq;
 
   `include "single/ppmc_single_part.svh"
+  `include "single/ppmc_axis_part.svh"
 
   assign limit_cw_n = l1_n;
   assign limit_ccw_n = l2_n;
   assign alarm_n = mon;
-  assign ccw = motion.op.ccw;
   assign moved = homed_q && lines_hq != lines && lines_hq != '0 && lines != '0;
+  assign positive_now = code_q[3];
   assign is_read = wr_a0 && wr_data[7] && wr_data[6:3] == '0 && wr_data[2:0] <= 3'd3;
   assign pins_at_rest = s == '0 && int_n && !d_oe;
 
@@ -63,7 +63,7 @@ module stmc_fv
 
   `FV_ASSERT(no_pulse_at_standstill, !moved || busy_h[1])
 
-  `FV_COVER(seen_limit, blocked_q && ccw && busy_h[1])
+  `FV_COVER(seen_limit, blocked_q && ccw_q && busy_h[1])
   `FV_COVER(seen_answer, load && complete_q)
   `FV_COVER(seen_step, moved && index_q == 4'd2)
   `FV_COVER(ready_seen, alarm_age_q > 6'd1 && busy_h[0] && !motion.busy && complete_q)
