@@ -83,6 +83,15 @@ export function pinsOps(part: PartData, straps: number): number[] {
   return [STRAPS, straps | 0x80, PINS, STRAPS, straps & 0x7f, PINS, STRAPS, straps];
 }
 
+/** Script that reads the status register; a part with a window has one for each axis. */
+export function statusOps(part: PartData): number[] {
+  if (part.bus !== "window") return read(1);
+  return part.motors.flatMap((_, axis) => [...write(SELECT, axis), ...read(1)]);
+}
+
+/** Bits of a status that are 1 until the part has executed all bytes and the motion has ended. */
+export const busyBits = (part: PartData): number => Number(part.style.busy) | IBF;
+
 /** Scripts that stop all motors immediately. They read no register, and work in any state of the part. */
 export function stopScripts(part: PartData): number[][] {
   if (part.bus === "block") return [[...write(2, WINDOW), ...write(3, WINDOW - 4), 0x85, 4, 0x00, 0x80, 0x02, 0x03]];
