@@ -22,7 +22,7 @@ from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative
 from openppmc.sim.common.build import package, verilator_command, verilator_environment, verilator_version
 from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
-from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.webparts import BUILDS, WebPart
 
 CORE = ROOT / "site/core"
 BOARD = ROOT / "tb/board"
@@ -153,7 +153,7 @@ def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
-    """Build the module of a part; return its path.
+    """Build the module of a build in BUILDS; return its path.
 
     With `native`, a shared library for this machine with the same functions is built instead. Existing files
     are not built again. Raises ProjectError with the name of the log if a tool fails.
@@ -161,8 +161,8 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     Args:
         bound: further sources that are linked, for tests.
     """
-    part = WEB_PARTS[name]
-    design = part_design(name, part.config)
+    part = BUILDS[name]
+    design = part_design(part.name, part.config)
     core = sorted([*CORE.glob("*.cpp"), *CORE.glob("*.h")])
     board = [BOARD / file for file in ("plant.h", "plant.cpp", "steps.h")]
     headers = [path for folder in design.includes for path in sorted((ROOT / folder).glob("*.svh"))]

@@ -128,7 +128,7 @@ export class Translator {
     for (const one of statements(text)) {
       this.line = one.line;
       try {
-        if (one.at >= 0) this.steps.push({ line: this.line, pause: (one.at * 1e3) / this.part.clkHz, since: true });
+        if (one.at >= 0) this.steps.push({ line: this.line, pause: (one.at * 1e3) / this.part.textHz, since: true });
         let rest = one.words;
         while (rest.length) rest = this.verb(rest[0]!, rest.slice(1));
       } catch (error) {
@@ -336,7 +336,7 @@ export class Translator {
   }
 
   private pause(words: string[]): string[] {
-    const pause = (clks(words[0], this.part.clkHz) * 1e3) / this.part.clkHz;
+    const pause = (clks(words[0], this.part.textHz) * 1e3) / this.part.textHz;
     this.steps.push({ line: this.line, pause, since: false });
     return words.slice(1);
   }

@@ -19,6 +19,7 @@ from scripts.site.pages import playground
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, Motor, WebPart
 from tests.common.web.counters import add, left_out
+from tests.common.web.moves import MOVES
 from tests.common.web.players import player
 from tests.common.web.script import Player
 
@@ -69,18 +70,6 @@ def test_sessions(name):
         assert got["end"] == recording.end
         count += sum(map(len, actual.values()))
     add(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
-
-
-BYTES = "c 0A d C7 d 31 d 64 d 00 c 43 d 63 d 00 d 00"
-"""A move of 100 pulses."""
-MOVES = {
-    "ppmc104": f"{BYTES} idle wait 2ms",
-    "ppmc2104": f"{BYTES.replace('0A', '02').replace('c 43', 'p 00 c 43')} idle wait 2ms",
-    "stmc": f"{BYTES} idle wait 2ms",
-    "ppmc312": sessions("ppmc312")[0].text.split("wait 1540ms")[0] + "wait 200ms",
-    "pmc006": sessions("pmc006")[0].text,
-    "bank": f"axis 0 {BYTES}\naxis 3 {BYTES} idle wait 2ms",
-}
 
 
 def step_times(play: Player, motor: Motor) -> list[int]:
