@@ -84,10 +84,11 @@ def build(name: str) -> dict[str, Any]:
 
 def board(part: WebPart) -> dict[str, Any]:
     """Return the data for real boards with this part (BoardData in site/src/types.ts)."""
-    row = PARTS[part.name]
+    row, own = PARTS[part.name], build(part.name)
+    builds = [build(name) for name in BOARD_BUILDS[part.name]]
     return {
         "number": row.number,
-        "builds": [build(name) for name in BOARD_BUILDS[part.name]],
+        "builds": [{key: value for key, value in one.items() if value != own[key]} for one in builds],
         "boards": [
             {
                 "title": f"{on.title}, {on.revisions}",

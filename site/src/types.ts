@@ -107,8 +107,8 @@ export interface PartData extends Build {
 export interface BoardData {
   /** Part number in IDENT; 0: the part is not accessed through a bridge. */
   number: number;
-  /** Builds with the parameters of boards. The page loads such a module when it has compared values of a board. */
-  builds: Build[];
+  /** Builds with the parameters of boards, without the values that are equal to those of the page. */
+  builds: Partial<Build>[];
   boards: Bitstream[];
 }
 
