@@ -50,6 +50,7 @@ export class Run {
   /** All answers of the text have arrived, in ms after the start. */
   answered = 0;
   private readonly steps: Step[];
+  private readonly firstStraps: number;
   private readonly straps: number;
   private stopping = "";
   private begun = 0;
@@ -70,6 +71,7 @@ export class Run {
     this.positions = part.motors.map(() => 0);
     const translator = new Translator(part, text, record ? GAP : 0, (row) => this.rows.push(row));
     this.steps = translator.translate(text);
+    this.firstStraps = translator.firstStraps;
     this.straps = translator.straps;
   }
 
@@ -81,7 +83,7 @@ export class Run {
   async play(): Promise<void> {
     const zero = this.part.bus !== "window" && this.counted ? ZERO.slice(0, this.link.identity.axes) : [];
     try {
-      await this.ask([STRAPS, 0xff, ...(this.record ? [RECORD, 1] : []), RESET, ...zero]);
+      await this.ask([STRAPS, this.firstStraps, ...(this.record ? [RECORD, 1] : []), RESET, ...zero]);
       if (this.link.identity.datasheet) await sleep(SETTLE_MS);
       this.begun = this.last = performance.now();
       await this.execute();

@@ -105,8 +105,9 @@ export class Translator {
   private readonly marks: number[];
   private readonly explainers = new Map<number, Explainer>();
   private axis = 0;
-  /** Levels of the strap outputs after the text. */
-  straps = 0xff;
+  /** Levels of the strap outputs before and after the text. */
+  readonly firstStraps: number;
+  straps: number;
   private line = 0;
   private steps: Step[] = [];
   private readonly counted: boolean;
@@ -121,6 +122,9 @@ export class Translator {
     this.positions = part.motors.map(() => 0);
     this.marks = [...this.positions];
     this.counted = /\bpulse\b/.test(text);
+    // With a recorder, strap output 0 of an STMC stops the step clock of the board, whose edges would fill the memory.
+    const still = part.name === "stmc" && !/\bclock\b/.test(text);
+    this.straps = this.firstStraps = still ? 0xfe : 0xff;
   }
 
   translate(text: string): Step[] {

@@ -39,7 +39,7 @@ BOARDS = {
     **{part: f"part={part}" for part in ("ppmc2104", "stmc", "ppmc312", "bank")},
 }
 """Virtual boards by their names in board.mjs."""
-REAL = ("ppmc104_24000000_0", "ppmc2104_100000000", "bank_54000000_13500000_0_16")
+REAL = ("ppmc104_24000000_0", "ppmc2104_100000000", "stmc_24000000", "bank_54000000_13500000_0_16")
 """Builds of the iCEBreaker, the ULX3S and the Tang Nano 9K, for which virtual boards are also started."""
 
 
