@@ -422,6 +422,7 @@ const checks = {
     for (const [build, text, edges] of [
       ["ppmc104_24000000_0", `c 82 r\n${INIT}\nwait 160000 c 43 d 3B d 00 d 00\nidle c 80 r 83`, 150],
       ["ppmc2104_100000000", TEXTS.ppmc2104, 100],
+      // If the step clock of the board ran, its edges would be nearly all records.
       ["stmc_24000000", `${INIT}\nc 43 d 63 d 00 d 00\nidle c 80 r 83`, 200],
       ["bank_54000000_13500000_0_16", TEXTS.bank, 60],
     ]) {
@@ -430,8 +431,7 @@ const checks = {
       const asked = await prepare(page, text);
       await page.click(".pg-board-go");
       const found = await result(page);
-      // A record of this bank has 35 bytes, and its reads fill the recorder.
-      matches(found, build.startsWith("bank") ? /: all equal/ : /\d edges: all equal/);
+      matches(found, /: all equal/);
       truth(Number(/(\d+) edges/.exec(found)?.[1]) > edges, `${build}: ${found}`);
       truth(!page.wrong.length, page.wrong.join());
       told.push(`${build} ${/\d+ edges/.exec(found)[0]} (${/from \d+ up to \d+/.exec(asked)?.[0]})`);
