@@ -39,6 +39,8 @@ SAME_EVERYWHERE = "-ffile-prefix-map={}=."
 """Option that makes paths in __FILE__ relative to this folder, so that each checkout gives the same module.
 """
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
+UNIT = "unit.cpp"
+"""File that includes all sources of a module; compiled one by one, they need five times as long."""
 MOST = 200 * 1024
 """Maximum size of a packed module in bytes."""
 
@@ -169,7 +171,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     sources = [*(ROOT / source for source in design.sources), *bound]
     version = verilator_version()
     what = [*sources, *headers, *core, *board, pins_h(part), part.params]
-    what += [VERILATE, compiler(native), SAME_EVERYWHERE, LINK]
+    what += [VERILATE, compiler(native), SAME_EVERYWHERE, LINK, UNIT]
     kind = "native" if native else "bound" if bound else "wasm"
     out = OUT / kind / f"{name}-{_digest(version, *what)}.{'so' if native else 'wasm'}"
     if out.is_file():
@@ -191,12 +193,13 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     arguments += [f"-I{ROOT / folder}" for folder in design.includes]
     log = work / "build.log"
     _run(verilator_command([*arguments, *map(str, sources)], work), work, log)
-    made = [*work.glob("Vpart*.cpp"), *CORE.glob("*.cpp"), BOARD / "plant.cpp"]
-    own = [(path, work / path.with_suffix(".o").name) for path in made]
-    _compile(own, [work, CORE, BOARD, *vltstd], work, native)
+    made = [*sorted(work.glob("Vpart*.cpp")), *sorted(CORE.glob("*.cpp")), BOARD / "plant.cpp"]
+    (work / UNIT).write_text("".join(f'#include "{path.name}"\n' for path in made), encoding="utf-8")
+    unit = (work / UNIT).with_suffix(".o")
+    _compile([(work / UNIT, unit)], [work, CORE, BOARD, *vltstd], work, native)
     out.parent.mkdir(parents=True, exist_ok=True)
     linked = work / out.name
-    every = [str(to) for _, to in own] + [str(path) for path in objects]
+    every = [str(path) for path in (unit, *objects)]
     if native:
         _run(["g++", "-shared", "-O2", *every, "-o", str(linked)], work, log)
     else:
