@@ -29,12 +29,12 @@ LONG = 22_000_000
 HERE = ROOT / "tests/common/web"
 
 
-def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
-    """Return the results of (part, text) pairs."""
+def played(*jobs: tuple[str, str], clk: int = 0) -> list[dict[str, Any]]:
+    """Return the results of (part, text) pairs, on the builds of the page or on those with this clock."""
     folder = playground()
     done = subprocess.run(
         ["node", str(HERE / "play.mjs"), str(folder.parent / "engine/engine.js"), str(folder)],
-        input=json.dumps([{"part": part, "text": text} for part, text in jobs]),
+        input=json.dumps([{"part": part, "text": text, "clk": clk} for part, text in jobs]),
         capture_output=True,
         text=True,
         check=True,
@@ -104,6 +104,14 @@ def test_speed_plot(name):
             assert speed_at(speeds, (before + after) / 2 / hz) == pytest.approx(hz / (after - before))
         if got["end"] - times[-1] > 8 * (times[-1] - times[-2]):
             assert speeds["v"][-1] == 0
+
+
+def test_times_on_a_build_with_another_clock():
+    """A number of cycles in a text is the same time on every build."""
+    jobs = [("ppmc104", text) for text in ("wait 16000", "@16000 wait 0", "wait 1ms")]
+    for page, board in zip(played(*jobs), played(*jobs, clk=24_000_000), strict=True):
+        assert page["end"] >= 15_999
+        assert board["end"] == pytest.approx(1.5 * page["end"], abs=2)
 
 
 WRONG = (
