@@ -19,7 +19,7 @@ from scripts.site import wasm
 from scripts.site.progress import say
 from scripts.site.sessions import sessions
 from scripts.site.texts import tables
-from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.webparts import BOARD_BUILDS, BUILDS, WEB_PARTS, WebPart
 
 LENGTHS = {
     "byte": {"lead": 0, "strobe": 2, "readStrobe": 4, "gap": 2},
@@ -67,17 +67,28 @@ def style(part: WebPart) -> dict[str, Any]:
     return found
 
 
+def build(name: str) -> dict[str, Any]:
+    """Return the data of a build, which differ between the builds of a part (Build in site/src/types.ts)."""
+    part = BUILDS[name]
+    pins, row = part.part, PARTS[part.name]
+    width = sum(map(pins.width, ("rst_n", *pins.inputs, *pins.watched)))
+    return {
+        "clkHz": part.config.clk_hz,
+        "params": part.params,
+        "recorder": list(row.load("selftest").layout(width)) if row.number else [],
+        "inputs": ports(part, list(pins.inputs), {**pins.inputs, **part.idle}),
+        "outputs": ports(part, list(pins.watched), pins.reset_levels(part.params)),
+        "wasm": f"wasm/{name}.wasm",
+    }
+
+
 def board(part: WebPart) -> dict[str, Any]:
     """Return the data for real boards with this part (BoardData in site/src/types.ts)."""
-    row = PARTS[part.name]
-    pins = []
-    if row.number:
-        width = sum(map(part.part.width, ("rst_n", *part.part.inputs, *part.part.watched)))
-        pins = list(row.load("selftest").layout(width))
+    row, own = PARTS[part.name], build(part.name)
+    builds = [build(name) for name in BOARD_BUILDS[part.name]]
     return {
         "number": row.number,
-        "params": part.params,
-        "recorder": pins,
+        "builds": [{key: value for key, value in one.items() if value != own[key]} for one in builds],
         "boards": [
             {
                 "title": f"{on.title}, {on.revisions}",
@@ -98,20 +109,17 @@ def _place(family: str) -> str:
     return "" if family == "ice40" else " --write-flash"
 
 
-def data(part: WebPart, module: str) -> dict[str, Any]:
+def data(part: WebPart) -> dict[str, Any]:
     """Return the tables of a part (PartData in site/src/types.ts)."""
     row = PARTS[part.name]
-    pins = part.part
-    levels = {**pins.inputs, **part.idle}
     words = getattr(row.load("demo"), "words", CommandDecoder())
     switches = {pin for motor in part.motors for pin in motor.switches}
     return {
         "name": part.name,
         "title": part.title,
         "bus": part.bus,
-        "clkHz": part.config.clk_hz,
-        "inputs": ports(part, list(pins.inputs), levels),
-        "outputs": ports(part, list(pins.watched), pins.reset_levels(part.params)),
+        **build(part.name),
+        "textHz": part.config.clk_hz,
         "motors": [
             {
                 "switches": list(motor.switches),
@@ -126,7 +134,6 @@ def data(part: WebPart, module: str) -> dict[str, Any]:
         "words": tables(part.name, words),
         "sessions": [vars(one) for one in sessions(part.name)],
         "style": style(part),
-        "wasm": module,
         "board": board(part),
     }
 
@@ -140,21 +147,21 @@ def _script(path: Path, room: str, key: str, value: object) -> None:
 
 
 def export(name: str, out: Path = PLAYGROUND) -> None:
-    """Write the tables and the module of a part to the playground's folder."""
-    part = WEB_PARTS[name]
+    """Write a module to the playground's folder; for a module of the page, also the tables of its part."""
     built = wasm.build(name)
     module = f"wasm/{name}.wasm"
     (out / "wasm").mkdir(parents=True, exist_ok=True)
     shutil.copy(built, out / module)
-    _script(out / f"{module}.js", "wasm", name, base64.b64encode(built.read_bytes()).decode())
-    _script(out / f"parts/{name}.js", "data", name, data(part, module))
+    _script(out / f"{module}.js", "wasm", module, base64.b64encode(built.read_bytes()).decode())
+    if name in WEB_PARTS:
+        _script(out / f"parts/{name}.js", "data", name, data(WEB_PARTS[name]))
 
 
 def all_parts() -> None:
     """Write all parts and their list; raise ProjectError if a module cannot be built."""
     try:
-        for number, name in enumerate(WEB_PARTS, 1):
-            say(f"WebAssembly of {name}, {number} of {len(WEB_PARTS)}")
+        for number, name in enumerate(BUILDS, 1):
+            say(f"WebAssembly of {name}, {number} of {len(BUILDS)}")
             export(name)
     except SimError as error:
         raise ProjectError(str(error)) from None

@@ -23,7 +23,7 @@ from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError, relative
 from openppmc.sim.common.build import package, verilator_command, verilator_environment, verilator_version
 from scripts.fpga.flow.plain_sim import assigned_cpp, word_cpp, words
-from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.webparts import BUILDS, WebPart
 
 CORE = ROOT / "site/core"
 BOARD = ROOT / "tb/board"
@@ -40,6 +40,8 @@ SAME_EVERYWHERE = "-ffile-prefix-map={}=."
 """Option that makes paths in __FILE__ relative to this folder, so that each checkout gives the same module.
 """
 RUNTIME = ("verilated.cpp", "verilated_threads.cpp")
+UNIT = "unit.cpp"
+"""File that includes all sources of a module; compiled one by one, they need five times as long."""
 MOST = 200 * 1024
 """Largest permitted size of a packed module in bytes."""
 
@@ -201,7 +203,7 @@ def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
-    """Build the module of a part; return its path.
+    """Build the module of a build in BUILDS; return its path.
 
     With `native`, a shared library for this machine with the same functions is built instead. Existing files
     are not built again. Raises ProjectError with the name of the log if a tool fails.
@@ -209,7 +211,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     Args:
         bound: further sources that are linked, for tests.
     """
-    part = WEB_PARTS[name]
+    part = BUILDS[name]
     design = part_design(part.device.name, part.config)
     core = sorted([*CORE.glob("*.cpp"), *CORE.glob("*.h")])
     board = [BOARD / file for file in ("plant.h", "plant.cpp", "steps.h")]
@@ -217,7 +219,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     sources = [*(ROOT / source for source in design.sources), *bound]
     version = verilator_version()
     what = [*sources, *headers, *core, *board, pins_h(part), part.params]
-    what += [VERILATE, compiler(native), SAME_EVERYWHERE, LINK]
+    what += [VERILATE, compiler(native), SAME_EVERYWHERE, LINK, UNIT]
     kind = "native" if native else "bound" if bound else "wasm"
     out = OUT / kind / f"{name}-{_digest(version, *what)}.{'so' if native else 'wasm'}"
     if out.is_file():
@@ -239,12 +241,13 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     arguments += [f"-I{ROOT / folder}" for folder in design.includes]
     log = work / "build.log"
     _run(verilator_command([*arguments, *map(str, sources)], work), work, log)
-    made = [*work.glob("Vpart*.cpp"), *CORE.glob("*.cpp"), BOARD / "plant.cpp"]
-    own = [(path, work / path.with_suffix(".o").name) for path in made]
-    _compile(own, [work, CORE, BOARD, *vltstd], work, native)
+    made = [*sorted(work.glob("Vpart*.cpp")), *sorted(CORE.glob("*.cpp")), BOARD / "plant.cpp"]
+    (work / UNIT).write_text("".join(f'#include "{path.name}"\n' for path in made), encoding="utf-8")
+    unit = (work / UNIT).with_suffix(".o")
+    _compile([(work / UNIT, unit)], [work, CORE, BOARD, *vltstd], work, native)
     out.parent.mkdir(parents=True, exist_ok=True)
     linked = work / out.name
-    every = [str(to) for _, to in own] + [str(path) for path in objects]
+    every = [str(path) for path in (unit, *objects)]
     if native:
         _run(["g++", "-shared", "-O2", *every, "-o", str(linked)], work, log)
     else:

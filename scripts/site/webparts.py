@@ -1,12 +1,13 @@
 """The parts of the playground, with their builds and the devices at their pins. Source: docs/playground.md.
 
-Each part has one build, with the parameters for which the sessions of the manuals were written.
+Each part has one build, whose parameters are those for which the sessions of the manuals were written. It has
+further builds with the parameters of the boards, with which the page compares the edges of a board.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from cocotb_tests.bank.bench import B8
 from cocotb_tests.harness.config import F16, Config
@@ -14,6 +15,7 @@ from cocotb_tests.harness.part import PARTS, Part
 from cocotb_tests.pmc006.builds import F8B
 from cocotb_tests.ppmc312.line.setting import BIT, F8L, FASTEST, STATIONS
 from openppmc import parts
+from scripts.fpga.flow.board_table import DESCRIPTIONS
 from scripts.site.stations import Stations
 
 
@@ -220,3 +222,35 @@ WEB_PARTS: dict[str, WebPart] = {
         ),
     )
 }
+
+
+def on_boards(part: WebPart) -> Iterator[tuple[str, WebPart]]:
+    """Yield the builds of a part for the boards whose bitstreams can have a recorder, by their names.
+
+    The values are those of the board.yml files. The name of a build contains the values that differ from
+    those of the part in the page. Boards with the same values have the same build.
+    """
+    for of in DESCRIPTIONS if parts.PARTS[part.name].number else ():
+        for on in of.parts:
+            if on.part != part.name or "uart" not in on.hosts or "RECORD" in (on.omit or {}):
+                continue
+            given = {**of.defaults, **(on.set or {}), "CLK_HZ": round(on.mhz * 1e6)}
+            old = {**part.config.params, **dict(part.config.extra)}
+            new = {name: given.get(name, value) for name, value in old.items()}
+            name = "_".join([part.name, *(str(new[key]) for key in part.params if new[key] != old[key])])
+            fixed = (new["CLK_HZ"], new["XTAL_HZ"], new["TIMING"], new["PHASE_IDLE"])
+            extra = tuple((key, new[key]) for key, _ in part.config.extra)
+            settle = part.settle * fixed[0] // part.config.clk_hz
+            yield name, replace(part, config=Config(name, *fixed, extra), settle=settle)
+
+
+BOARD_BUILDS: dict[str, dict[str, WebPart]] = {
+    name: dict(on_boards(part)) for name, part in WEB_PARTS.items()
+}
+"""Builds for boards, by part and by name."""
+BUILDS: dict[str, WebPart] = {
+    name: build
+    for part, one in WEB_PARTS.items()
+    for name, build in {part: one, **BOARD_BUILDS[part]}.items()
+}
+"""All builds by name: those of WEB_PARTS, each with its builds for boards."""

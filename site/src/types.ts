@@ -79,20 +79,31 @@ export interface MotorPins {
   phases: string[];
 }
 
-export interface PartData {
+/** Data that differ between the builds of a part. */
+export interface Build {
+  clkHz: number;
+  /** Parameters of the RTL. */
+  params: Record<string, number | string>;
+  /** Pins in a record of a board, and their widths, lowest bit first. */
+  recorder: [string, number][];
+  inputs: Port[];
+  outputs: Port[];
+  /** File with the module. */
+  wasm: string;
+}
+
+export interface PartData extends Build {
   name: string;
   title: string;
   bus: string;
-  clkHz: number;
-  inputs: Port[];
-  outputs: Port[];
+  /** Clock of the cycles in a text: that of the build in the page, also if the text is played on another build. */
+  textHz: number;
   motors: MotorPins[];
   /** Further pins that the reader can press. */
   straps: string[];
   words: Words;
   sessions: Session[];
   style: Record<string, unknown>;
-  wasm: string;
   board: BoardData;
 }
 
@@ -100,10 +111,8 @@ export interface PartData {
 export interface BoardData {
   /** Part number in IDENT; 0: the part is not accessed through a bridge. */
   number: number;
-  /** Parameters of the module of this page. */
-  params: Record<string, number | string>;
-  /** Pins in a record and their widths, lowest bit first. */
-  recorder: [string, number][];
+  /** Builds with the parameters of boards, without the values that are equal to those of the page. */
+  builds: Partial<Build>[];
   boards: Bitstream[];
 }
 

@@ -7,6 +7,7 @@ import { Player } from "./player";
 import type { Speeds } from "./speeds";
 
 export { Deframer, encode } from "./serial_frames";
+export { Link } from "./serial_link";
 
 export interface Played {
   end: number;

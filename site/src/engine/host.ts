@@ -4,7 +4,7 @@ import { CHANGE, STEP } from "./core";
 import { MACHINE, type Doing, type Side } from "./side";
 import { clks, TextError, whole, type Statement } from "./text";
 
-export const PATIENCE = 400_000_000; // time limit of a statement in cycles
+export const PATIENCE = 400_000_000; // time limit of a statement in cycles of the text
 const RESET = 16;
 
 export type Verb = (words: string[]) => Doing<string[]>;
@@ -26,7 +26,7 @@ export class Host {
 
   /** Wait from power-up to the first access. */
   *begin(): Doing {
-    yield* this.side.clocks(Number(this.side.part.style.settle));
+    yield* this.side.clocks(this.side.cycles(Number(this.side.part.style.settle)));
   }
 
   *statement(one: Statement): Doing {
@@ -55,7 +55,7 @@ export class Host {
   }
 
   *wait(words: string[]): Doing<string[]> {
-    yield* this.side.clocks(clks(words[0], this.side.part.clkHz));
+    yield* this.side.clocks(clks(words[0], this.side.part.clkHz, this.side.part.textHz));
     return words.slice(1);
   }
 
@@ -66,7 +66,7 @@ export class Host {
     const axis = (named ? Number(words[1]) : first) - first;
     if (axis < 0 || axis >= this.side.part.motors.length)
       throw new TextError(`there is no axis ${axis + first}`);
-    const end = this.side.core.now + PATIENCE;
+    const end = this.side.core.now + this.side.cycles(PATIENCE);
     while (this.side.pulses(axis) < wanted) {
       if (this.side.core.now > end) throw new TextError(`only ${this.side.pulses(axis)} pulses before the time limit`);
       yield { clk: PATIENCE, until: STEP };
@@ -76,7 +76,7 @@ export class Host {
 
   *until(words: string[]): Doing<string[]> {
     const [pin = "", level] = words;
-    const end = this.side.core.now + PATIENCE;
+    const end = this.side.core.now + this.side.cycles(PATIENCE);
     while (this.side.level(pin) !== whole(level, "level")) {
       if (this.side.core.now > end) throw new TextError(`${pin} does not become ${level} before the time limit`);
       yield { clk: PATIENCE, until: CHANGE };
@@ -94,9 +94,9 @@ export class Host {
     return words;
   }
 
-  /** `clock ext_clk 329`: a square wave with this period in cycles; 0 stops it. */
+  /** `clock ext_clk 329`: a square wave with this period in cycles of the text; 0 stops it. */
   *clock(words: string[]): Doing<string[]> {
-    this.side.wave(words[0] ?? "", whole(words[1], "period in cycles"));
+    this.side.wave(words[0] ?? "", this.side.cycles(whole(words[1], "period in cycles")));
     return words.slice(2);
   }
 

@@ -39,7 +39,7 @@ export class Player {
 
   /** Play a text from power-up on. Throws TextError for an invalid text. */
   start(text: string): void {
-    const all = statements(text);
+    const all = statements(text).map((one) => (one.at < 0 ? one : { ...one, at: this.side.cycles(one.at) }));
     for (const one of all)
       if (!(one.words[0]! in this.host.verbs))
         throw new TextError(`line ${one.line}: no such statement: ${one.words[0]}`);
@@ -72,7 +72,16 @@ export class Player {
     return !this.doing && !this.todo.length && !this.timed.length && !this.waits;
   }
 
-  /** Whether all statements have been executed and no motor has stepped for REST. */
+  /** Whether an output of the part indicates a motion. Between two pulses of a slow motor, the steps do not. */
+  private get moving(): boolean {
+    const { side } = this;
+    const [hold, down] = ["hold", "cd_n"].map((name) => side.part.outputs.find((port) => port.name === name));
+    if (hold) return side.level("hold") !== 2 ** hold.width - 1;
+    // CD* is asserted after a motion, but not before the first one.
+    return down !== undefined && side.level("cd_n") === 1 && side.pulses(0) > 0;
+  }
+
+  /** Whether all statements have been executed, no motor has stepped for REST, and no motion is in progress. */
   get resting(): boolean {
     if (!this.over) return false;
     const steps = this.side.part.motors.reduce((sum, _, axis) => sum + this.core.steps(axis), 0);
@@ -80,7 +89,7 @@ export class Player {
       this.stepsAtRest = steps;
       this.restFrom = this.core.now;
     }
-    return this.core.now - this.restFrom > REST * this.side.part.clkHz;
+    return this.core.now - this.restFrom > REST * this.side.part.clkHz && !this.moving;
   }
 
   /** Run up to `most` cycles and return their number. With `step`, stop at a step of a motor; with `strict`, stop at

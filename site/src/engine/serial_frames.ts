@@ -8,7 +8,7 @@ const MOST = 262; // largest number of bytes between the flags of an answer, CRC
 /** Bytes that return the bridge to its idle state at 115 200 baud (UB-LIN-06). */
 export const WAKE_UP: readonly number[] = [0, 0, ESCAPE, FLAG];
 
-function crc16(bytes: readonly number[]): number {
+export function crc16(bytes: readonly number[]): number {
   let crc = 0xffff;
   for (const one of bytes) {
     crc ^= one << 8;

@@ -1,6 +1,6 @@
 // Connection to the UART bridge of a board: identity, line rate, one request at a time.
 
-import { Deframer, encode, WAKE_UP } from "./serial_frames";
+import { crc16, Deframer, encode, WAKE_UP } from "./serial_frames";
 
 /** Byte stream to a board. The page uses Web Serial (ui/board_port.ts). */
 export interface Line {
@@ -155,8 +155,11 @@ export class Link {
   }
 
   private async exchange(script: readonly number[], duration: number, tries: number): Promise<Answer> {
-    const { seq } = this;
-    this.seq = (seq % LAST_SEQ) + 1;
+    const following = (seq: number): number => (seq % LAST_SEQ) + 1;
+    let { seq } = this;
+    // If the CRC ended with 00, the frame would also be valid without this 00, or with two of them.
+    while (!(crc16([seq, ...script]) & 0xff)) seq = following(seq);
+    this.seq = following(seq);
     const frame = encode([seq, ...script]);
     const patience = duration + MARGIN + ((frame.length + 300) * 20_000) / this.baud;
     const before = this.received;

@@ -1,9 +1,9 @@
-// The recorder of a bitstream (UB-REC): reads its records, and replays them on the RTL of the page.
+// The recorder of a bitstream (UB-REC): reads its records, and replays them on the RTL with the parameters of the board.
 
 import type { PartData } from "../types";
 import { Core, ROW } from "./core";
 import { BoardError, type Link, word } from "./serial_link";
-import { hex, words } from "./side";
+import { words } from "./side";
 
 const RECORD = 0x0d;
 const RECORDED = 0x0e;
@@ -12,6 +12,7 @@ const INPUT = 1 << 16;
 const SETTLE = 2; // cycles of reset after which the outputs have their reset levels
 const MOST_RUN = 1_000_000;
 const SLICE_MS = 20;
+const LONGEST_MS = 120_000; // longest comparison of edges
 
 export interface Recorder {
   bytes: number;
@@ -28,7 +29,8 @@ export interface Edges {
   records: number;
   edges: number;
   cycles: number;
-  full: boolean;
+  /** Reason why later edges were not compared, "" if all edges were compared. */
+  end: string;
   /** The first difference, "" if there is none. */
   difference: string;
 }
@@ -38,21 +40,6 @@ export async function recorder(link: Link): Promise<Recorder | undefined> {
   const { result, data } = await link.request([RECORD, 0, RECORDED]);
   if (result) return undefined;
   return { bytes: data[0]!, timeBits: data[1]!, most: 2 ** data[2]!, full: (data[3]! & 2) !== 0, count: word(data, 4) };
-}
-
-/** Return why the records cannot be compared with the module of the page, "" if they can be compared. */
-export function notComparable(link: Link, part: PartData, info: Recorder): string {
-  const { params, recorder: pins } = part.board;
-  const { identity } = link;
-  const wanted = { CLK_HZ: identity.clkHz, XTAL_HZ: identity.xtalHz };
-  for (const [name, value] of Object.entries(wanted))
-    if (params[name] !== value)
-      return `the board has ${name} = ${value}, the module of this page ${params[name]}; use openppmc selftest`;
-  if (identity.datasheet) return "the board has DATASHEET timing, the module of this page FAST; use openppmc selftest";
-  const width = pins.reduce((sum, [, bits]) => sum + bits, 0);
-  return 8 * info.bytes - info.timeBits === width
-    ? ""
-    : "the recorder has other pins than the part of this page; renew the bitstream";
 }
 
 /** End the recording, and read all records. */
@@ -86,13 +73,22 @@ interface Pin {
   input: boolean;
 }
 
-/** Apply the recorded levels of the inputs to the RTL, and compare each edge of its outputs. */
-export async function replay(part: PartData, wasm: BufferSource, samples: readonly Sample[], full: boolean): Promise<Edges> {
+/** Apply the recorded levels of the inputs to the RTL, and compare each edge of its outputs.
+ *
+ * part: the part in the build of the board. wanted: called with the part of the recorded time that was compared, from 0
+ * to 1; if it returns false, the comparison ends. */
+export async function replay(
+  part: PartData,
+  wasm: BufferSource,
+  samples: readonly Sample[],
+  full: boolean,
+  wanted: (done: number) => boolean = () => true,
+): Promise<Edges> {
   const core = new Core(wasm);
   const pins = layout(part);
   const reset = pins.find((pin) => pin.name === "rst_n")!;
   const level = (pin: Pin, levels: bigint): bigint => (levels >> pin.shift) & pin.mask;
-  const found: Edges = { records: samples.length, edges: 0, cycles: 0, full, difference: "" };
+  const found: Edges = { records: samples.length, edges: 0, cycles: 0, end: full ? "recorder full" : "", difference: "" };
   const from = samples.findIndex(({ levels }) => level(reset, levels) === 0n);
   if (from < 0) return { ...found, difference: "no reset was recorded" };
   const base = samples[from]!.t - core.now;
@@ -102,8 +98,11 @@ export async function replay(part: PartData, wasm: BufferSource, samples: readon
     for (let n = pin.count - 1; n >= 0; n--) value = (value << 32n) | BigInt(core.output(pin.word + n));
     return value & pin.mask;
   };
+  checkIdle(part, pins, samples.slice(from));
+  const last = samples.at(-1)!.t - base;
   let before = 0n;
-  let slice = performance.now();
+  const begin = performance.now();
+  let slice = begin;
   for (const { t, levels } of samples.slice(from)) {
     // An output that changes at edge t is recorded at t + 1, so outputs may change only at the last edge before a
     // record.
@@ -115,6 +114,11 @@ export async function replay(part: PartData, wasm: BufferSource, samples: readon
         return { ...found, difference: `${name} changes in the RTL ${early} cycles after the reset begins, but not on the board` };
       }
       if (performance.now() - slice > SLICE_MS) {
+        const go = wanted(core.now / last);
+        if (!go || performance.now() - begin > LONGEST_MS) {
+          const ms = Math.floor((core.now * 1e3) / part.clkHz);
+          return { ...found, end: `${go ? "after two minutes" : "with Stop"}, the comparison ended at ${ms} ms of the run` };
+        }
         await new Promise((done) => setTimeout(done, 0));
         slice = performance.now();
       }
@@ -125,7 +129,8 @@ export async function replay(part: PartData, wasm: BufferSource, samples: readon
         const board = level(pin, levels);
         if (board !== level(pin, before)) found.edges++;
         if (board === is(pin)) continue;
-        const text = (value: bigint): string => (pin.mask > 1n ? hex(Number(value)) : String(value));
+        const text = (value: bigint): string =>
+          pin.mask > 1n ? value.toString(16).toUpperCase().padStart(2, "0") : String(value);
         const values = `${text(board)} on the board, ${text(is(pin))} in the RTL`;
         return { ...found, difference: `${pin.name} is ${values}, ${t - base} cycles after the reset begins` };
       }
@@ -135,6 +140,16 @@ export async function replay(part: PartData, wasm: BufferSource, samples: readon
     before = levels;
   }
   return found;
+}
+
+/** Throw an error if the phases have the levels of the other PHASE_IDLE, which IDENT does not report. */
+function checkIdle(part: PartData, pins: readonly Pin[], samples: readonly Sample[]): void {
+  const phases = pins.find(({ name }) => name === "s");
+  const value = part.params.PHASE_IDLE;
+  const first = samples.find(({ t }) => t >= samples[0]!.t + SETTLE);
+  if (!phases || !first || value === undefined) return;
+  if (((first.levels >> phases.shift) & phases.mask) === (value ? 0n : phases.mask))
+    throw new BoardError(`the board has PHASE_IDLE = ${value ? 0 : 1}, the RTL of this page ${value}; use openppmc selftest`);
 }
 
 function put(core: Core, part: PartData, pin: Pin, value: bigint): void {
@@ -147,7 +162,7 @@ function put(core: Core, part: PartData, pin: Pin, value: bigint): void {
 
 function layout(part: PartData): Pin[] {
   let shift = 0;
-  return part.board.recorder.map(([name, width]) => {
+  return part.recorder.map(([name, width]) => {
     const input = part.inputs.find((port) => port.name === name);
     const port = input ?? part.outputs.find((one) => one.name === name);
     const count = Math.ceil(width / 32);

@@ -43,7 +43,7 @@ export function verdict(result: Result): string {
   const { compared, edges, error } = result;
   if (error) return error;
   const counted = `${count(compared.answers, "answer")}, ${count(compared.positions, "position")}`;
-  const edgeText = typeof edges === "string" ? "" : `, ${edges.edges} edges${edges.full ? " (recorder full)" : ""}`;
+  const edgeText = typeof edges === "string" ? "" : `, ${edges.edges} edges${edges.end && ` (${edges.end})`}`;
   const different = strict(result);
   const timed = compared.differences.length - compared.differences.filter((one) => !one.timing).length;
   const late = timed ? `; ${timed} depend on the speed of the host` : "";

@@ -2,7 +2,19 @@
 
 import type { PartData } from "../types";
 import { BoardError, type Link, Lost, message, word } from "./serial_link";
-import { type BoardRow, type Op, type Pause, type Poll, pinsOps, positionOps, type Step, stopScripts, Translator } from "./serial_steps";
+import {
+  type BoardRow,
+  busyBits,
+  type Op,
+  type Pause,
+  type Poll,
+  pinsOps,
+  positionOps,
+  statusOps,
+  type Step,
+  stopScripts,
+  Translator,
+} from "./serial_steps";
 import { hex } from "./side";
 
 const TIMEOUT = 0x04;
@@ -15,7 +27,9 @@ const WAITS = 3; // wait operations in a frame; Stop is sent after the frame
 const MOST_SCRIPT = 253;
 const MOST_DATA = 256;
 const POSITIONS_MS = 100; // time between two reads of the positions
-const STOP_MS = 60; // a motor whose position still changes this time after an immediate stop has not stopped
+const STOP_MS = 60; // an axis that is still busy this time after an immediate stop has not stopped
+const STOP_HOLD_MS = 150; // the same for a part whose HOLD is asserted 100 ms after the end of a motion
+const XTAL_HZ = 16e6; // crystal for which these times apply
 const HOLD = 2;
 const POLL_MS = 2;
 const GAP = 4; // NOPs before a wait that reads only once; in this time, a part with FAST timing accepts a byte
@@ -36,6 +50,7 @@ export class Run {
   /** All answers of the text have arrived, in ms after the start. */
   answered = 0;
   private readonly steps: Step[];
+  private readonly firstStraps: number;
   private readonly straps: number;
   private stopping = "";
   private begun = 0;
@@ -56,6 +71,7 @@ export class Run {
     this.positions = part.motors.map(() => 0);
     const translator = new Translator(part, text, record ? GAP : 0, (row) => this.rows.push(row));
     this.steps = translator.translate(text);
+    this.firstStraps = translator.firstStraps;
     this.straps = translator.straps;
   }
 
@@ -67,7 +83,7 @@ export class Run {
   async play(): Promise<void> {
     const zero = this.part.bus !== "window" && this.counted ? ZERO.slice(0, this.link.identity.axes) : [];
     try {
-      await this.ask([STRAPS, 0xff, ...(this.record ? [RECORD, 1] : []), RESET, ...zero]);
+      await this.ask([STRAPS, this.firstStraps, ...(this.record ? [RECORD, 1] : []), RESET, ...zero]);
       if (this.link.identity.datasheet) await sleep(SETTLE_MS);
       this.begun = this.last = performance.now();
       await this.execute();
@@ -222,11 +238,26 @@ export async function positions(link: Link, part: PartData): Promise<number[]> {
   return parsePositions((await link.request(askPositions(part))).data);
 }
 
-/** Stop all motors immediately; if a motor still moves afterwards, reset the part. */
+/** Stop all motors immediately; if the part does not report their standstill, reset it. */
 export async function stopMotors(link: Link, part: PartData): Promise<void> {
   for (const script of stopScripts(part)) await link.request(script);
-  if (part.bus !== "window" && !link.identity.counter) return;
-  const before = await positions(link, part);
-  await sleep(STOP_MS);
-  if ((await positions(link, part)).join() !== before.join()) await link.request([RESET]);
+  const patience = part.bus === "block" ? STOP_HOLD_MS : STOP_MS;
+  const end = performance.now() + (patience * XTAL_HZ) / link.identity.xtalHz;
+  while (!(await stopped(link, part))) {
+    if (performance.now() > end) {
+      await link.request([RESET]);
+      return;
+    }
+    await sleep(POLL_MS);
+  }
+}
+
+/** Return whether no axis executes an operation.
+ *
+ * Positions cannot answer this: a slow motor outputs a pulse in four seconds. BUSY and HOLD have the state of the whole
+ * motion, and a part with BUSY need not wait for HOLD. */
+async function stopped(link: Link, part: PartData): Promise<boolean> {
+  const block = part.bus === "block";
+  const { data } = await link.request(block ? pinsOps(part, 0xff) : statusOps(part));
+  return data.every((value) => (block ? value & HOLD : !(value & busyBits(part))));
 }

@@ -83,6 +83,15 @@ export function pinsOps(part: PartData, straps: number): number[] {
   return [STRAPS, straps | 0x80, PINS, STRAPS, straps & 0x7f, PINS, STRAPS, straps];
 }
 
+/** Script that reads the status register; a part with a window has one for each axis. */
+export function statusOps(part: PartData): number[] {
+  if (part.bus !== "window") return read(1);
+  return part.motors.flatMap((_, axis) => [...write(SELECT, axis), ...read(1)]);
+}
+
+/** Bits of a status that are 1 until the part has executed all bytes and the motion has ended. */
+export const busyBits = (part: PartData): number => Number(part.style.busy) | IBF;
+
 /** Scripts that stop all motors immediately. They read no register, and work in any state of the part. */
 export function stopScripts(part: PartData): number[][] {
   if (part.bus === "block") return [[...write(2, WINDOW), ...write(3, WINDOW - 4), 0x85, 4, 0x00, 0x80, 0x02, 0x03]];
@@ -96,8 +105,9 @@ export class Translator {
   private readonly marks: number[];
   private readonly explainers = new Map<number, Explainer>();
   private axis = 0;
-  /** Levels of the strap outputs after the text. */
-  straps = 0xff;
+  /** Levels of the strap outputs before and after the text. */
+  readonly firstStraps: number;
+  straps: number;
   private line = 0;
   private steps: Step[] = [];
   private readonly counted: boolean;
@@ -112,6 +122,9 @@ export class Translator {
     this.positions = part.motors.map(() => 0);
     this.marks = [...this.positions];
     this.counted = /\bpulse\b/.test(text);
+    // With a recorder, strap output 0 of an STMC stops the step clock of the board, whose edges would fill the memory.
+    const still = part.name === "stmc" && !/\bclock\b/.test(text);
+    this.straps = this.firstStraps = still ? 0xfe : 0xff;
   }
 
   translate(text: string): Step[] {
@@ -119,7 +132,7 @@ export class Translator {
     for (const one of statements(text)) {
       this.line = one.line;
       try {
-        if (one.at >= 0) this.steps.push({ line: this.line, pause: (one.at * 1e3) / this.part.clkHz, since: true });
+        if (one.at >= 0) this.steps.push({ line: this.line, pause: (one.at * 1e3) / this.part.textHz, since: true });
         let rest = one.words;
         while (rest.length) rest = this.verb(rest[0]!, rest.slice(1));
       } catch (error) {
@@ -327,7 +340,7 @@ export class Translator {
   }
 
   private pause(words: string[]): string[] {
-    const pause = (clks(words[0], this.part.clkHz) * 1e3) / this.part.clkHz;
+    const pause = (clks(words[0], this.part.textHz) * 1e3) / this.part.textHz;
     this.steps.push({ line: this.line, pause, since: false });
     return words.slice(1);
   }

@@ -51,6 +51,11 @@ export class Side {
     this.markPulses();
   }
 
+  /** Convert cycles of the text to cycles of the build. */
+  cycles(n: number): number {
+    return Math.round((n * this.part.clkHz) / this.part.textHz);
+  }
+
   private find(pin: string, ports: Map<string, Port>, what: string): Place {
     const found = PIN.exec(pin);
     const port = found ? ports.get(found[1]!) : undefined;

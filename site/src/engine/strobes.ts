@@ -69,7 +69,7 @@ export class Pauses {
   private readonly end: number;
 
   constructor(private readonly side: Side) {
-    this.end = side.core.now + PATIENCE;
+    this.end = side.core.now + side.cycles(PATIENCE);
   }
 
   *next(): Doing {

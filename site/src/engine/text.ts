@@ -41,14 +41,14 @@ export function byte(word: string | undefined): number {
   return parseInt(word, 16);
 }
 
-/** Convert "400", "5us" or "2ms" to cycles. */
-export function clks(word: string | undefined, clkHz: number): number {
+/** Convert "400", "5us" or "2ms" to cycles. textHz: clock of the cycles in the text. */
+export function clks(word: string | undefined, clkHz: number, textHz = clkHz): number {
   const found = LENGTH.exec(word ?? "");
   if (!found) throw new TextError(`${word ?? "missing word"}: not a time; write 400, 5us or 2ms`);
   const n = Number(found[1]);
   // Round halves to even, as Python does.
   const scaled =
-    found[2] === "us" ? (n * clkHz) / 1e6 : found[2] === "ms" ? (n * clkHz) / 1e3 : Math.floor(n);
+    found[2] === "us" ? (n * clkHz) / 1e6 : found[2] === "ms" ? (n * clkHz) / 1e3 : (Math.floor(n) * clkHz) / textHz;
   const down = Math.floor(scaled);
   return scaled - down === 0.5 ? down + (down % 2) : Math.round(scaled);
 }

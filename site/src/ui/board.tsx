@@ -20,6 +20,7 @@ import {
   phase,
   positions,
   records,
+  replayed,
   results,
   rows,
   stop,
@@ -219,7 +220,12 @@ function Connected() {
       <Confirmation />
       {(phase.value === "running" || phase.value === "comparing") && (
         <p class="pg-board-live" aria-live="off">
-          {phase.value === "running" ? `line ${line.value}` : "comparing"};{" "}
+          {phase.value === "running"
+            ? `line ${line.value}`
+            : replayed.value < 0
+              ? "comparing"
+              : `comparing edges, ${replayed.value} % of the recorded time`}
+          ;{" "}
           {positions.value.map((position, axis) => `axis ${axis + first} at ${position}`).join(", ")}
         </p>
       )}

@@ -15,7 +15,8 @@ export class Simulation {
   private take: (message: FromWorker) => void = () => undefined;
   private abort: () => void = () => undefined;
 
-  constructor(private readonly part: PartData) {}
+  /** part: in the build that simulates the texts. */
+  constructor(readonly part: PartData) {}
 
   load(): Promise<void> {
     this.ready ??= loadWasm(this.part).then(

@@ -2,8 +2,9 @@
 
 import { batch, signal } from "@preact/signals";
 import { compare, motionLines, type Simulated, slowed } from "../engine/serial_compare";
+import { buildOf, simulatedBuild } from "../engine/serial_build";
 import { Link, Lost, message } from "../engine/serial_link";
-import { fetchRecords, notComparable, type Recorder, recorder, replay } from "../engine/serial_record";
+import { fetchRecords, type Recorder, recorder, replay } from "../engine/serial_record";
 import type { Result } from "../engine/serial_report";
 import { Run, stopMotors, Stopped } from "../engine/serial_run";
 import { type BoardRow, stopScripts } from "../engine/serial_steps";
@@ -12,7 +13,7 @@ import type { PartData } from "../types";
 import { choosePort, onReturn, WebLine } from "./board_port";
 import { Simulation } from "./board_sim";
 import { loadWasm, parts } from "./load";
-import { chapter, part, start, text } from "./state";
+import { chapter, part, startText, text } from "./state";
 
 export type Phase = "off" | "opening" | "ready" | "simulating" | "confirm" | "running" | "comparing";
 interface Job {
@@ -35,11 +36,12 @@ export const rows = signal<BoardRow[]>([]);
 export const golden = signal<Simulated | undefined>(undefined);
 export const positions = signal<number[]>([]);
 export const line = signal(0);
+/** Compared part of the recorded time in percent, -1 before the comparison of edges. */
+export const replayed = signal(-1);
 
 let link: Link | undefined;
 let port: Awaited<ReturnType<typeof choosePort>>;
 let simulation: Simulation | undefined;
-let simulated: PartData | undefined;
 let run: Run | undefined;
 /** The present run, until its motors have stopped. */
 let active: Promise<unknown> = Promise.resolve();
@@ -93,7 +95,7 @@ async function attach(chosen: NonNullable<typeof port>): Promise<void> {
       phase.value = "ready";
     });
     made.onLost = lost;
-    if (part.value && !mismatch()) prepare(part.value).load().catch(() => undefined);
+    if (part.value && !mismatch()) prepare(part.value, made).load().catch(() => undefined);
   } catch (error) {
     await wire.close().catch(() => undefined);
     throw error;
@@ -144,11 +146,12 @@ export async function disconnect(): Promise<void> {
   await old?.close();
 }
 
-function prepare(data: PartData): Simulation {
-  if (simulation && simulated === data) return simulation;
+/** Return the simulation of a part with the parameters of the board. */
+function prepare(data: PartData, used: Link): Simulation {
+  const build = simulatedBuild(data, used.identity, records.value);
+  if (simulation?.part.wasm === build.wasm) return simulation;
   simulation?.close();
-  simulated = data;
-  simulation = new Simulation(data);
+  simulation = new Simulation(build);
   return simulation;
 }
 
@@ -164,13 +167,14 @@ export async function ask(texts: { title: string; text: string }[]): Promise<voi
   }
   try {
     for (const one of texts) new Run(link, data, one.text);
+    const simulator = prepare(data, link);
     phase.value = "simulating";
     const made: Job[] = [];
     for (const [n, one] of texts.entries()) {
       told.value = texts.length > 1 ? `simulating session ${n + 1} of ${texts.length}` : "";
-      const found = await prepare(data).run(one.text);
+      const found = await simulator.run(one.text);
       if (mine !== asked) return;
-      const scale = link.identity.xtalHz / Number(data.board.params.XTAL_HZ);
+      const scale = link.identity.xtalHz / Number(simulator.part.params.XTAL_HZ);
       const motions = motionLines(found.motions, data.motors.length, Number(data.style.first), scale);
       if (found.open) motions.push(`${found.open}: it may output more pulses than listed`);
       made.push({ ...one, golden: found, motions });
@@ -224,7 +228,7 @@ export async function confirm(): Promise<void> {
   const used = link;
   if (!data || !used || phase.value !== "confirm" || mismatch()) return;
   results.value = [];
-  if (both.value && all.length === 1) start();
+  if (both.value && all.length === 1) startText(all[0]!.text);
   for (const job of all) {
     if (!jobs.value.length) break;
     const played = play(job, data, used);
@@ -240,7 +244,8 @@ export async function confirm(): Promise<void> {
 
 async function play(job: Job, data: PartData, used: Link): Promise<Result> {
   const info = records.value;
-  const why = info ? notComparable(used, data, info) : "the bitstream has no recorder (make bitstream … RECORD=13)";
+  const build = info ? buildOf(data, used.identity, info) : "the bitstream has no recorder (make bitstream … RECORD=13)";
+  const why = typeof build === "string" ? build : "";
   const made = new Run(used, data, job.text, !why, () =>
     batch(() => {
       rows.value = [...made.rows];
@@ -265,6 +270,7 @@ async function play(job: Job, data: PartData, used: Link): Promise<Result> {
   };
   batch(() => {
     golden.value = job.golden;
+    replayed.value = -1;
     rows.value = [];
     positions.value = made.positions;
     phase.value = "running";
@@ -286,14 +292,17 @@ async function play(job: Job, data: PartData, used: Link): Promise<Result> {
   if (!result.error) {
     result.compared = compare(made.rows, counted, job.golden, first);
     if (result.compared.differences.length) {
-      const slower = await prepare(data).run(slowed(job.text)).catch(() => undefined);
+      const slower = await prepare(data, used).run(slowed(job.text)).catch(() => undefined);
       result.compared = compare(made.rows, counted, job.golden, first, slower);
     }
   }
   try {
-    if (!why) {
+    if (typeof build !== "string") {
       const { info: state, samples } = await fetchRecords(used);
-      result.edges = await replay(data, await loadWasm(data), samples, state.full);
+      result.edges = await replay(build, await loadWasm(build), samples, state.full, (done) => {
+        replayed.value = Math.floor(100 * done);
+        return jobs.value.length > 0;
+      });
     }
   } catch (error) {
     result.edges = message(error);

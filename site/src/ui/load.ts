@@ -50,8 +50,8 @@ export async function loadWasm(part: PartData): Promise<ArrayBuffer> {
     return answer.arrayBuffer();
   }
   // A page from a file may load only scripts.
-  if (!known.wasm?.[part.name]) await script(`${part.wasm}.js`);
-  const text = atob(known.wasm![part.name]!);
+  if (!known.wasm?.[part.wasm]) await script(`${part.wasm}.js`);
+  const text = atob(known.wasm![part.wasm]!);
   return Uint8Array.from(text, (letter) => letter.charCodeAt(0)).buffer;
 }
 

@@ -254,7 +254,7 @@ export async function choose(
       return;
     }
     show();
-    if (go) launch();
+    if (go) launch(text.value);
     early = [];
     for (const action of asked) action();
     const wasm = await loadWasm(data);
@@ -305,10 +305,16 @@ export function start(): void {
     void choose(part.value.name, { ...own, run: chapter.value || undefined, go: true });
     return;
   }
-  launch();
+  launch(text.value);
 }
 
-function launch(): void {
+/** Start a text that is not necessarily that of the editor. The part must be loaded. */
+export function startText(whole: string): void {
+  remark = trouble.value = "";
+  launch(whole);
+}
+
+function launch(whole: string): void {
   if (!able()) return;
   welcome.value = first;
   first = false;
@@ -318,7 +324,7 @@ function launch(): void {
   if (loaded) why.value = "";
   else running.value = true;
   const label = `${part.value?.name} ${chapter.value}`;
-  ask({ kind: "start", text: text.value, speed: speed.value, label });
+  ask({ kind: "start", text: whole, speed: speed.value, label });
 }
 
 export function setSpeed(value: number): void {

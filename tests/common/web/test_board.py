@@ -10,6 +10,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from functools import cache
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
@@ -18,7 +19,9 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from cocotb_tests.harness.project import ProjectError
 from openppmc import sim
+from openppmc.sim.common.board import to_stderr
 from scripts.site.pages import SITE, packages, playground
+from scripts.site.webparts import BUILDS
 from tests.common.web.counters import add
 
 HERE = ROOT / "tests/common/web"
@@ -33,9 +36,24 @@ BOARDS = {
     # the recorded edges.
     "recorded": "clk=16000000,record=13",
     "plain": "",
+    "idle": "clk=24000000,record=10",
     **{part: f"part={part}" for part in ("ppmc2104", "stmc", "ppmc312", "bank")},
 }
 """Virtual boards by their names in board.mjs."""
+REAL = ("ppmc104_24000000_0", "ppmc2104_100000000", "stmc_24000000", "bank_54000000_13500000_0_16")
+"""Builds of the iCEBreaker, the ULX3S and the Tang Nano 9K, for which virtual boards are also started."""
+
+
+def started(name: str) -> sim.SimBoard:
+    """Start a virtual board of BOARDS, or with the parameters of a build in REAL."""
+    if name in BOARDS:
+        return sim.start(BOARDS[name])
+    given = BUILDS[name].params
+    words = {"clk": given["CLK_HZ"], "xtal": given["XTAL_HZ"], "axes": given.get("AXES"), "record": 10}
+    spec = sim.parse_spec(f"part={BUILDS[name].name}", **words)
+    # The text of a virtual board cannot set PHASE_IDLE.
+    idle = {"phase_idle": str(given["PHASE_IDLE"])} if "PHASE_IDLE" in given else {}
+    return sim.SimBoard(replace(spec, own={**spec.own, **idle}), to_stderr)
 
 
 @contextmanager
@@ -66,7 +84,7 @@ def checked() -> dict[str, dict[str, str]]:
     except ProjectError as error:
         pytest.skip(f"no browser: {error}")
     with ExitStack() as stack:
-        boards = {name: stack.enter_context(sim.start(spec)) for name, spec in BOARDS.items()}
+        boards = {name: stack.enter_context(started(name)) for name in (*BOARDS, *REAL)}
         status = stack.enter_context(status_server(boards))
         ports = {name: board.port for name, board in boards.items()}
         command = ["node", str(HERE / "board.mjs"), str(folder), str(ROOT / "build/site/shots")]

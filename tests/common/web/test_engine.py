@@ -19,6 +19,7 @@ from scripts.site.pages import playground
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, Motor, WebPart
 from tests.common.web.counters import add, left_out
+from tests.common.web.moves import MOVES
 from tests.common.web.players import player
 from tests.common.web.script import Player
 
@@ -30,12 +31,12 @@ computer.
 HERE = ROOT / "tests/common/web"
 
 
-def played(*jobs: tuple[str, str]) -> list[dict[str, Any]]:
-    """Play (part, text) pairs in the engine under node; return the result of each pair."""
+def played(*jobs: tuple[str, str], clk: int = 0) -> list[dict[str, Any]]:
+    """Return the results of (part, text) pairs, on the builds of the page or on those with this clock."""
     folder = playground()
     done = subprocess.run(
         ["node", str(HERE / "play.mjs"), str(folder.parent / "engine/engine.js"), str(folder)],
-        input=json.dumps([{"part": part, "text": text} for part, text in jobs]),
+        input=json.dumps([{"part": part, "text": text, "clk": clk} for part, text in jobs]),
         capture_output=True,
         text=True,
         check=True,
@@ -73,19 +74,6 @@ def test_sessions(name):
     add(f"{name}: {len(texts)} sessions by the page's engine, {count} edges as in the golden model{left}")
 
 
-BYTES = "c 0A d C7 d 31 d 64 d 00 c 43 d 63 d 00 d 00"
-"""A move of 100 pulses."""
-MOVES = {
-    "ppmc104": f"{BYTES} idle wait 2ms",
-    "ppmc2104": f"{BYTES.replace('0A', '02').replace('c 43', 'p 00 c 43')} idle wait 2ms",
-    "stmc": f"{BYTES} idle wait 2ms",
-    "ppmc312": sessions("ppmc312")[0].text.split("wait 1540ms")[0] + "wait 200ms",
-    "ppmc312-serial": sessions("ppmc312-serial")[1].text,
-    "pmc006": sessions("pmc006")[0].text,
-    "bank": f"axis 0 {BYTES}\naxis 3 {BYTES} idle wait 2ms",
-}
-
-
 def step_times(play: Player, motor: Motor) -> list[int]:
     """Return the cycles of a motor's steps on the golden model; chopping of the phases is not a step."""
     edges = play.bench.edges(play.output(motor))
@@ -118,6 +106,14 @@ def test_speed_plot(name):
             assert speed_at(speeds, (before + after) / 2 / hz) == pytest.approx(hz / (after - before))
         if got["end"] - times[-1] > 8 * (times[-1] - times[-2]):
             assert speeds["v"][-1] == 0
+
+
+def test_times_on_a_build_with_another_clock():
+    """A number of cycles in a text is the same time on every build."""
+    jobs = [("ppmc104", text) for text in ("wait 16000", "@16000 wait 0", "wait 1ms")]
+    for page, board in zip(played(*jobs), played(*jobs, clk=24_000_000), strict=True):
+        assert page["end"] >= 15_999
+        assert board["end"] == pytest.approx(1.5 * page["end"], abs=2)
 
 
 WRONG = (

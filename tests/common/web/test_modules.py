@@ -13,10 +13,11 @@ from openppmc.check.comparison import compare_edges
 from openppmc.check.records import Recording
 from scripts.site import wasm
 from scripts.site.sessions import sessions
-from scripts.site.webparts import WEB_PARTS, WebPart
+from scripts.site.webparts import BUILDS, WEB_PARTS, WebPart
 from tests.common.web import hosts
 from tests.common.web.counters import add, left_out
 from tests.common.web.module import Module
+from tests.common.web.moves import MOVES
 from tests.common.web.players import player
 from tests.common.web.script import ScriptError
 
@@ -32,19 +33,20 @@ every = pytest.mark.parametrize("name", WEB_PARTS)
 
 @cache
 def module(name: str) -> Module:
-    """Return the module of a device."""
-    return Module(WEB_PARTS[name], wasm.build(name))
+    """Return the module of a build."""
+    return Module(BUILDS[name], wasm.build(name))
 
 
-def compared(part: WebPart, recording: Recording) -> int:
+def compared(name: str, recording: Recording) -> int:
     """Compare a module with a recording of the golden model; return the number of equal edges.
 
     Raises AssertionError at a difference.
     """
+    part = BUILDS[name]
     levels = part.part.reset_levels(recording.params)
     initial = {pin: levels[pin] for pin in part.part.watched}
     resets = [change.t for change in recording.stimulus if change.pin == "rst_n" and not change.value]
-    edges = module(part.name).play(recording)
+    edges = module(name).play(recording)
     _, actual, mismatch = compare_edges(recording.edges, edges, initial, recording.end, resets)
     assert mismatch is None, f"seed {recording.seed}: {mismatch}"
     return sum(map(len, actual.values()))
@@ -60,7 +62,7 @@ def test_sessions_of_the_manual(name):
         recording = player(part).play(session.text)
         ends.append(recording.end)
         if recording.end < LONG:
-            counts.append(compared(part, recording))
+            counts.append(compared(name, recording))
     left = left_out(name, ends, LONG, "left to the page's engine")
     add(f"{name}: {len(counts)} sessions of the manual, {sum(counts)} edges as in the golden model{left}")
     assert sum(counts) > 1000
@@ -70,12 +72,21 @@ def test_sessions_of_the_manual(name):
 def test_random_hosts(name):
     """With 50 random hosts, the module changes every output on the same edges as the golden model."""
     part = WEB_PARTS[name]
-    counts = [compared(part, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
+    counts = [compared(name, hosts.recorded(part, seed)) for seed in islice(hosts.seeds(part), HOSTS)]
     add(f"{name}: {HOSTS} random hosts, {sum(counts)} edges as in the golden model")
     assert len(counts) == HOSTS and min(counts) > 10
 
 
-@every
+@pytest.mark.parametrize("name", sorted(BUILDS.keys() - WEB_PARTS.keys()))
+def test_a_move_on_the_builds_for_boards(name):
+    """With the parameters of a board, every edge of a move is that of the golden model."""
+    build = BUILDS[name]
+    count = compared(name, player(build).play(MOVES[build.name]))
+    add(f"{name}: {count} edges of a move as in the golden model")
+    assert count > 100
+
+
+@pytest.mark.parametrize("name", BUILDS)
 def test_size(name):
     """A web server sends less than 200 KB for each module."""
     size = wasm.packed(wasm.build(name))
@@ -96,7 +107,7 @@ def test_a_wrong_edge_is_found():
     place = next(n for n, edge in enumerate(recording.edges) if edge.signal == "pout_n")
     recording.edges[place] = recording.edges[place]._replace(t=recording.edges[place].t + 1)
     with pytest.raises(AssertionError, match="pout_n"):
-        compared(part, recording)
+        compared("ppmc104", recording)
 
 
 def test_a_wrong_byte_is_found():

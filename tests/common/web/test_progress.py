@@ -11,7 +11,7 @@ import pytest
 from cocotb_tests.harness.paths import ROOT
 from scripts.site import __main__ as site
 from scripts.site import export, pages
-from scripts.site.webparts import WEB_PARTS
+from scripts.site.webparts import BUILDS
 
 
 @pytest.fixture
@@ -35,7 +35,7 @@ def test_each_stage_has_a_line(quick, capsys):
     """A build of the site announces each stage and each module, in order."""
     site.build(out=quick / "html")
     lines = capsys.readouterr().out.splitlines()
-    modules = [f"site: WebAssembly of {name}, {n} of {len(WEB_PARTS)}" for n, name in enumerate(WEB_PARTS, 1)]
+    modules = [f"site: WebAssembly of {name}, {n} of {len(BUILDS)}" for n, name in enumerate(BUILDS, 1)]
     first = lines.index(modules[0])
     assert lines[first : first + len(modules)] == modules
     words = ["packages", "script", "WebAssembly", "MkDocs", "data sheet of ppmc104, 1 of 6"]
