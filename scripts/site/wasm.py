@@ -253,7 +253,7 @@ def make(name: str, native: bool, bound: Sequence[Path]) -> Path:
     else:
         end = [*LINK.split(), *every, "-lwasi-emulated-process-clocks", "-o", str(linked)]
         _run([sys.executable, "-m", "ziglang", "c++", *end], work, log)
-    for old in out.parent.glob(f"{name}-*"):
+    for old in out.parent.glob(f"{name}-{'?' * 16}.*"):
         old.unlink()
     linked.rename(out)
     return out
