@@ -80,9 +80,9 @@ module ppmc_bank_update_fv
       !pin_cmd_o.pulse || (motion_i.busy && motion_i.more_pulses && !motion_i.pulse_low && !motion_i.held))
   `FV_ASSERT(no_second_pulse_end, !pin_cmd_o.pulse_end || motion_i.pulse_low)
   `FV_ASSERT(no_pulse_after_the_last, !(pin_cmd_o.pulse && decision_o.last_pulse) || !motion_o.more_pulses)
-  `FV_ASSERT(
-      direction_changes_with_the_pins,
-      motion_o.ccw == pin_cmd_o.ccw && (motion_o.ccw == motion_i.ccw || (decision_o.start && pin_cmd_o.set_pins)))
+  `FV_ASSERT(direction_at_the_pins, motion_o.ccw == pin_cmd_o.ccw)
+  `FV_ASSERT(direction_changes_with_the_pins,
+             motion_o.ccw == motion_i.ccw || (decision_o.start && pin_cmd_o.set_pins))
   `FV_ASSERT(no_start_during_motion, !decision_o.start || !motion_i.busy)
   `FV_ASSERT(valid_for_the_next_visit, motion_o.busy || !(motion_o.more_pulses || motion_o.pulse_low))
   `FV_ASSERT(rate_by_one, decision_o.start || interval_o.rate - interval_i.rate inside {8'd0, 8'd1, 8'hFF})
