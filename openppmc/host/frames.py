@@ -205,7 +205,8 @@ class Session:
         self._deframer = Deframer()
         self._next_seq = 0
         self._answer: bytes | None = None
-        self._request: bytes | None = None
+        self.outstanding: bytes | None = None
+        """Line bytes of the outstanding request; the caller may set it to None to cancel the request."""
         self._received = 0
         self.events: deque[int] = deque()
         """Pin bytes of the received events, oldest first; the caller removes them."""
@@ -215,7 +216,7 @@ class Session:
     @property
     def busy(self) -> bool:
         """True if a request is outstanding."""
-        return self._request is not None
+        return self.outstanding is not None
 
     @property
     def deadline(self) -> float | None:
@@ -226,7 +227,7 @@ class Session:
         """Return to the initial state after a wake-up of the link: SEQ 0, no request, no incomplete frame."""
         self._deframer.reset()
         self._next_seq = 0
-        self._request = self._answer = None
+        self.outstanding = self._answer = None
 
     def request(self, script: bytes, patience: float, now: float) -> bytes:
         """Return the line bytes of a new request.
@@ -245,7 +246,7 @@ class Session:
         while not crc16(bytes([self._next_seq]) + script) & 0xFF:
             self._next_seq = self._following_seq()
         line = encode(bytes([self._next_seq]) + script, REQUEST_LIMIT)
-        self._request = self._line = line
+        self.outstanding = self._line = line
         self._answer = None
         self._seq = self._next_seq
         self._next_seq = self._following_seq()
@@ -262,14 +263,10 @@ class Session:
     def repeat(self, now: float) -> bytes:
         """Return the line bytes of the last request again, after an answer that does not match it."""
         line = self._line
-        self._request, self._sent = line, self._sent + 1
+        self.outstanding, self._sent = line, self._sent + 1
         self.repeats += 1
         self._deadline = now + self._patience
         return line
-
-    def abandon(self) -> None:
-        """Cancel the outstanding request. If its answer arrives later, it is ignored."""
-        self._request = self._answer = None
 
     def receive(self, data: bytes, now: float) -> bytes | None:
         """Process received bytes. Return the answer without its SEQ if they complete the answer."""
@@ -285,27 +282,27 @@ class Session:
 
         Raises RetriesExhausted after the last attempt.
         """
-        if self._request is None or now < self._deadline:
+        if self.outstanding is None or now < self._deadline:
             return b""
         if self._sent >= self._attempts:
-            self._request = None
+            self.outstanding = None
             raise RetriesExhausted(self._sent, tuple(self._naks), self._received)
         self._sent += 1
         self.repeats += 1
         self._deadline = now + self._patience
-        return self._request
+        return self.outstanding
 
     def _sort(self, payload: bytes, now: float) -> None:
         """Process an answer, an event or a NAK; ignore other payloads."""
         kind = payload[0]
         if kind == MESSAGE_EVENT and len(payload) == 2:
             self.events.append(payload[1])
-        elif self._request is None:
+        elif self.outstanding is None:
             return
         elif kind == MESSAGE_NAK and len(payload) == 2:
             self._naks.append(payload[1])
             if payload[1] in _REPEAT_AFTER:
                 self._deadline = min(self._deadline, now + self._grace)
         elif kind == self._seq and len(payload) >= 2:
-            self._request = None
+            self.outstanding = None
             self._answer = payload[1:]

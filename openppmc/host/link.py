@@ -262,8 +262,9 @@ class Link:
         session, port = self._session, self.port
         line_time = (len(bytes(script)) + script.response_size + 24) * 2 * _BITS / self.baud
         patience = script.patience + line_time + attempts_margin
-        request = session.request(bytes(script), patience, self.clock())
+        busy = session.busy
         try:
+            request = session.request(bytes(script), patience, self.clock())
             for left in reversed(range(_READS)):
                 port.write(request)
                 body = self._await()
@@ -276,7 +277,9 @@ class Link:
                 request = session.repeat(self.clock())
             raise AssertionError
         finally:
-            session.abandon()
+            # A signal handler may raise an exception at any call, so a request is cancelled without a call.
+            if not busy:
+                session.outstanding = None
 
     def _await(self) -> bytes:
         """Return the answer to the outstanding request.

@@ -117,6 +117,42 @@ def test_handlers_that_raise_at_any_time_leave_the_model_whole(
         assert end.position == axis.position > 0
 
 
+def interrupted_at(call: int, action: Callable[[], object]) -> bool:
+    """Run an action, and raise KeyboardInterrupt at this call of a function of the host library.
+
+    Return False if the action has fewer calls. Calls of generators do not count: Python ignores an exception
+    that is raised while it closes one.
+    """
+    left = call
+
+    def trace(frame: FrameType, event: str, argument: object) -> None:
+        nonlocal left
+        counts = str(frame.f_globals.get("__name__")).startswith("openppmc.host")
+        left -= counts and frame.f_code.co_name != "<genexpr>"
+        if counts and left == 0:
+            raise KeyboardInterrupt
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        action()
+    except KeyboardInterrupt:
+        return True
+    finally:
+        sys.settrace(before)
+    return False
+
+
+@pytest.mark.parametrize("kind", [Ppmc104, Pmc006])
+def test_a_handler_that_raises_at_any_call_leaves_the_link_ready(kind: type[Ppmc104] | type[Pmc006]) -> None:
+    with kind.open("model:speed=max") as axis:
+        call = 1
+        while interrupted_at(call, lambda: axis.position):
+            assert axis.position == 0, call
+            call += 1
+    assert call > 10
+
+
 def test_what_decelerates_for_too_long_is_stopped_at_once() -> None:
     process = started(library("motion.wait()", 1100, 4000, seconds=0.5), "moving")
     time.sleep(1)
