@@ -29,6 +29,8 @@ class CoreTiming:
         data: additional time of a data block of a free curve, without its bytes (one cycle each).
         limits: from the effect to the limit check of a start, which uses the levels at its edge.
         answer: from the effect to the stored response, without its bytes (one cycle each).
+        result_lead: serial mode: time from the result of an event or override, which a poll can then report,
+            to the stored response. The parallel mode needs this time to load the response.
         done: from the stored response to MWEF = 0.
         reset: from the start of processing to the reset by instruction FF.
         reboot: from the reset by instruction FF to its effect.
@@ -84,6 +86,7 @@ class CoreTiming:
     data: int = 3
     limits: int = 1
     answer: int = 3
+    result_lead: int = 1
     done: int = 1
     reset: int = 20
     reboot: int = 2

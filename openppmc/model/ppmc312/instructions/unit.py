@@ -294,7 +294,11 @@ class Unit:
     def _write(self, stored: int, block: bytes, source: Source) -> None:
         self._storing = True
         self._at(stored - 1, self._enable_next)
-        self._core.context.queue.at(stored, Phase.STORE, lambda now: self._store(now, block, source))
+        core, queue = self._core, self._core.context.queue
+        if core.responses.serial and source is not Source.HOST:
+            shown = stored - core.core_timing.result_lead
+            queue.at(shown, Phase.STORE, lambda now: core.host.answer(now, source, block))
+        queue.at(stored, Phase.STORE, lambda now: self._store(now, block, source))
 
     def _enable_next(self, t: int) -> None:
         """End the processing of an instruction, so that the next one can begin."""
@@ -316,7 +320,8 @@ class Unit:
         if self._core.responses.serial:
             self._storing = self.response_pending = False
             self._answered = True
-            self._core.host.answer(t, source, block)
+            if source is Source.HOST:
+                self._core.host.answer(t, source, block)
             return
         if t < self._open_from:
             self._core.context.queue.at(
