@@ -160,8 +160,11 @@ def export(name: str, out: Path = PLAYGROUND) -> None:
 def all_parts() -> None:
     """Write all parts and their list; raise ProjectError if a module cannot be built."""
     try:
-        for number, name in enumerate(BUILDS, 1):
-            say(f"WebAssembly of {name}, {number} of {len(BUILDS)}")
+        names = list(BUILDS)
+        wasm.build_all(
+            names, lambda name: say(f"WebAssembly of {name}, {names.index(name) + 1} of {len(names)}")
+        )
+        for name in names:
             export(name)
     except SimError as error:
         raise ProjectError(str(error)) from None

@@ -13,7 +13,7 @@ import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -200,6 +200,18 @@ def build(name: str, native: bool = False, bound: Sequence[Path] = ()) -> Path:
     """Call `make` with a lock, so that several processes may use this function at the same time."""
     with locked(OUT / "build.lock"):
         return make(name, native, bound)
+
+
+def build_all(names: Sequence[str], begin: Callable[[str], None]) -> None:
+    """Build the modules with these names, two at a time; call `begin` with each name before its build."""
+
+    def one(name: str) -> None:
+        begin(name)
+        make(name, False, ())
+
+    with locked(OUT / "build.lock"), ThreadPoolExecutor(2) as pool:
+        one(names[0])  # builds the run-time objects that all modules share
+        list(pool.map(one, names[1:]))
 
 
 def make(name: str, native: bool, bound: Sequence[Path]) -> Path:

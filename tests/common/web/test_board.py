@@ -28,7 +28,7 @@ HERE = ROOT / "tests/common/web"
 pytestmark = [
     pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed: no browser"),
     pytest.mark.skipif(sys.platform != "linux", reason="a virtual board needs Linux"),
-    pytest.mark.xdist_group("page"),
+    pytest.mark.xdist_group("board"),
 ]
 NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "board.mjs").read_text(encoding="utf-8"), re.M)
 BOARDS = {
