@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import cache
@@ -28,7 +28,7 @@ HERE = ROOT / "tests/common/web"
 pytestmark = [
     pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed: no browser"),
     pytest.mark.skipif(sys.platform != "linux", reason="a virtual board needs Linux"),
-    pytest.mark.xdist_group("board"),
+    pytest.mark.xdist_group("page"),
 ]
 NAMES = re.findall(r'^  async "([^"]+)"\(\)', (HERE / "board.mjs").read_text(encoding="utf-8"), re.M)
 BOARDS = {
@@ -40,6 +40,7 @@ BOARDS = {
     **{part: f"part={part}" for part in ("ppmc2104", "stmc", "ppmc312", "bank")},
 }
 """Virtual boards by their names in board.mjs."""
+OTHER_CLOCKS = "every edge of boards with other clocks"
 REAL = ("ppmc104_24000000_0", "ppmc2104_100000000", "stmc_24000000", "bank_54000000_13500000_0_16")
 """Builds of the iCEBreaker, the ULX3S and the Tang Nano 9K, for which virtual boards are also started."""
 
@@ -78,22 +79,28 @@ def status_server(boards: dict[str, sim.SimBoard]) -> Iterator[str]:
 @cache
 def checked() -> dict[str, dict[str, str]]:
     """Return the result of each check in the browser. Without a browser, skip the tests with a message."""
-    folder = playground()
     try:
         packages(SITE / "browser")
     except ProjectError as error:
         pytest.skip(f"no browser: {error}")
+    # A virtual board always needs processor time, so only the boards that the checks use are started.
+    return results(BOARDS, f"^(?!{OTHER_CLOCKS})") | results(REAL, OTHER_CLOCKS)
+
+
+def results(names: Iterable[str], checks: str) -> dict[str, dict[str, str]]:
+    """Return the results of the checks whose name matches this regular expression, with these boards."""
+    folder = playground()
     with ExitStack() as stack:
-        boards = {name: stack.enter_context(started(name)) for name in (*BOARDS, *REAL)}
+        boards = {name: stack.enter_context(started(name)) for name in names}
         status = stack.enter_context(status_server(boards))
         ports = {name: board.port for name, board in boards.items()}
         command = ["node", str(HERE / "board.mjs"), str(folder), str(ROOT / "build/site/shots")]
-        command += [str(SITE / "browser"), json.dumps({**ports, "status": status})]
+        command += [str(SITE / "browser"), json.dumps({**ports, "status": status}), checks]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode == 3:
         pytest.skip(done.stderr.strip().splitlines()[-1])
     if done.returncode:  # the failure is returned as a result, because an exception would not be cached
-        return {name: {"error": done.stderr} for name in NAMES}
+        return {name: {"error": done.stderr} for name in NAMES if re.search(checks, name)}
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
         if line.get("told"):
