@@ -13,6 +13,7 @@ from cocotb.handle import Immediate
 from cocotb.triggers import Timer
 
 from ..harness import Config, configs, same
+from ..harness.jitter import jitters
 
 CONFIG = Config("spi8m", clk_hz=8_000_000, extra=(("AXES", 4), ("HOST", "SPI")))
 AXES = 4
@@ -191,7 +192,9 @@ async def spi_read_back_finds_a_wrong_mode(dut):
     """
     host = Host(dut)
     await host.start()
-    for mode, skew in product(range(4), (-2, -1, -0.4, 0, 0.4, 1, 2)):
+    # With JITTER=1, the sampled skew differs by up to one cycle from that of the pins.
+    skews = (-2, -1, 2) if jitters() else (-2, -1, -0.4, 0, 0.4, 1, 2)
+    for mode, skew in product(range(4), skews):
         got = []
         for value in (0x05, 0x00):
             await host.raw(mode, skew, 0x80, 0x08, value)

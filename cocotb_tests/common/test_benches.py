@@ -7,7 +7,7 @@ import pytest
 from cocotb_tests.harness import PARTS, SimOptions, cocotb_items, run_item
 from cocotb_tests.harness.collect import Item
 
-ITEMS = cocotb_items("cocotb_tests.common", "tb_benches", part=PARTS["ppmc104"])
+ITEMS = cocotb_items("cocotb_tests.common", "tb_benches", part=PARTS["ppmc104"], exact="they test the bench")
 
 
 @pytest.mark.parametrize("item", ITEMS)

@@ -14,6 +14,8 @@ from .project import files
 from .runner import SimOptions, run_item
 
 BLOCKS = Part("blocks", {})
+NO_STAGES = "the blocks have no synchroniser"
+"""Reason why the tests of a module do not run with JITTER=1."""
 GROUPS = ("common", "motion", "host", "single")
 
 

@@ -27,6 +27,7 @@ import pytest
 from openppmc import parts
 
 from .config import F16, Config
+from .jitter import reason_against
 from .part import Part
 from .paths import ROOT
 
@@ -117,11 +118,19 @@ def unknown_rules(ids: tuple[str, ...], part: str) -> list[str]:
     return bad
 
 
-def bytes_only(test: F) -> F:
-    """Mark a cocotb test that checks only bytes and messages, so that it also runs with JITTER=1."""
-    target: Any = getattr(test, "func", test)
-    target._openppmc_bytes_only = True
-    return test
+def exact(reason: str) -> Callable[[F], F]:
+    """Mark a cocotb test that does not run with JITTER=1, although other tests of its module do.
+
+    Args:
+        reason: reason for it, in a few words.
+    """
+
+    def mark(test: F) -> F:
+        target: Any = getattr(test, "func", test)
+        target._openppmc_exact = reason
+        return test
+
+    return mark
 
 
 def probe(*paths: str) -> Callable[[F], F]:
@@ -158,8 +167,7 @@ class Item:
         uncompared: reason why a directed test is not compared with the golden model ("" if it is compared);
             None for other tests.
         exact: reason why the test does not run with JITTER=1.
-        bytes_only: True if it checks only bytes and messages, so that it runs with JITTER=1 without a golden
-            model.
+        tolerant: True if its checks allow the extra cycle of JITTER=1, so that it needs no golden model.
         shared: True if it may share a process with other tests of its module, although it is not a directed
             test.
     """
@@ -176,7 +184,7 @@ class Item:
     skipped: str = ""
     uncompared: str | None = None
     exact: str = ""
-    bytes_only: bool = False
+    tolerant: bool = False
     shared: bool = False
 
     @property
@@ -201,7 +209,7 @@ class Item:
 
 
 def cocotb_items(
-    package: str, *modules: str, part: Part, shared: bool = False, bytes_only: bool = False
+    package: str, *modules: str, part: Part, shared: bool = False, tolerant: bool = False, exact: str = ""
 ) -> list[Any]:
     """Return a pytest.param for each test of `package`'s modules and each configuration that the test names.
 
@@ -210,7 +218,8 @@ def cocotb_items(
     Args:
         shared: True if the tests of a module run in one process for each build. Each test must then begin
             with a reset.
-        bytes_only: see `Item`; also set for single tests by the decorator `bytes_only`.
+        tolerant: see `Item`.
+        exact: see `Item`; the decorator `exact` sets it for single tests.
     """
     params, seen = [], set()
     for name in modules:
@@ -227,10 +236,11 @@ def cocotb_items(
                         probes=probes_of(test),
                         skipped="skip=True of cocotb.test()" if case.skip else "",
                         uncompared=getattr(test.func, "_openppmc_uncompared", None),
-                        exact=getattr(test.func, "_openppmc_exact", ""),
-                        bytes_only=bytes_only or hasattr(test.func, "_openppmc_bytes_only"),
+                        exact=exact or getattr(test.func, "_openppmc_exact", ""),
+                        tolerant=tolerant,
                         shared=shared,
                     )
+                    reason_against(item)  # raises ValueError for a test without a statement about JITTER=1
                     if item.id in seen:
                         raise ValueError(f"{package}.{name}: second test called {item.id}")
                     seen.add(item.id)

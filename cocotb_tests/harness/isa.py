@@ -12,6 +12,8 @@ from .bus import HostBus
 from .part import BusStyle
 from .rtl_bench import RtlBench
 
+NANOSECONDS = "the hold times of the ISA bus are shorter than the extra cycle"
+"""Reason why tests with an ISA bus do not run with JITTER=1."""
 STROBES_ISA = BusStyle(
     write_on={"iow_n": 0},
     write_off={"iow_n": 1},

@@ -10,6 +10,7 @@ to a synchroniser, the first register samples the pin directly.
 from __future__ import annotations
 
 import os
+import re
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -36,18 +37,29 @@ def jitters() -> bool:
     return bool(os.environ.get(JITTER))
 
 
-def is_jittered(item: Any) -> bool:
-    """Return whether a simulated test can run with JITTER=1.
+def reason_against(item: Any) -> str:
+    """Return the reason why a simulated test does not run with JITTER=1; "" if it runs.
 
-    It can if it is compared with a golden model that receives the sampled levels, or if it checks only bytes
-    and messages of a host line.
+    Directed tests and random hosts of a device run, because the golden model receives the sampled levels.
+    Other tests run if their checks allow the extra cycle.
+
+    Raises ValueError if neither is the case and no reason is stated.
     """
-    if item.bytes_only:
-        return True
-    if item.part not in PARTS or not PARTS[item.part].stages:
-        return False
-    exact = item.exact or PARTS[item.part].exact
-    return (item.uncompared == "" and not exact) or item.module.endswith(".tb_random")
+    part = PARTS.get(item.part)
+    staged = bool(part and part.stages)
+    if staged and item.module.endswith(".tb_random"):
+        return ""
+    if item.exact:
+        return str(item.exact)
+    if not item.tolerant and not (staged and item.uncompared is not None):
+        raise ValueError(f"{item.id}: state why it does not run with JITTER=1 (exact=), or that it can run")
+    return ""
+
+
+def stage_counts(log: str) -> tuple[int, int]:
+    """Return how many changes the synchronisers of a simulation have sampled late, and without delay."""
+    rows = re.findall(r"^ppmc_sync: (\d+) late, (\d+) prompt$", log, re.MULTILINE)
+    return sum(int(late) for late, _ in rows), sum(int(prompt) for _, prompt in rows)
 
 
 def with_jitter(sources: Sequence[Path]) -> list[Path]:

@@ -79,7 +79,7 @@ class Part:
 
     For `make test JITTER=1`, `stages` lists the synchronisers of the pins: path -> pins from the most
     significant bit on; "stage.<pin>" is the level that the second of two registers samples at a pin
-    (`harness/jitter.py`). `exact` is the reason why only random hosts run with JITTER=1.
+    (`harness/jitter.py`).
 
     The top of a bench may contain more than the device. Then `fed` lists inputs of the device that the top
     drives (outputs of the bench), and `aside` lists inputs that only the top has.
@@ -101,7 +101,6 @@ class Part:
     fed: frozenset[str] = frozenset()
     aside: frozenset[str] = frozenset()
     stages: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    exact: str = ""
 
     @classmethod
     def of_model(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ import pytest
 
 from .build import locked
 from .collect import PREFIXES, Item, part_of_rule, rules_of, unknown_rules
-from .jitter import JITTER, is_jittered
+from .jitter import JITTER, reason_against
 from .model_tests import run_on_model
 from .paths import TRACE
 from .runner import SimOptions, Summary, notes
@@ -23,6 +24,7 @@ from .sim_backend import collect_seldom
 from .variants import mutant_present
 
 RESULTS = TRACE / "results.jsonl"
+_EXACT = pytest.StashKey[Counter[str]]()
 _GROUPS = pytest.StashKey[Groups]()
 
 
@@ -57,15 +59,24 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Deselect tests that the options --clk-hz, --model and --jitter exclude.
 
     --clk-hz deselects plain Python tests and tests with other clocks; --model deselects all tests except
-    directed ones; --jitter deselects all tests except compared ones of the devices that support it.
+    directed ones; --jitter deselects plain Python tests and simulated tests that state a reason against it.
     """
     clk_hz, model = config.getoption("--clk-hz"), config.getoption("--model")
     keep = [test for test in items if _is_selected(item_of(test), clk_hz, model)]
     if config.getoption("--jitter"):
-        keep = [test for test in keep if (item := item_of(test)) and is_jittered(item)]
+        reasons = {test: reason_against(item) for test in keep if (item := item_of(test))}
+        config.stash[_EXACT] = Counter(reason for reason in reasons.values() if reason)
+        keep = [test for test, reason in reasons.items() if not reason]
     if len(keep) < len(items):
         config.hook.pytest_deselected(items=[test for test in items if test not in set(keep)])
         items[:] = keep
+
+
+def pytest_report_collectionfinish(config: pytest.Config) -> list[str]:
+    """Return the reasons why simulated tests do not run with --jitter, each with its number of tests."""
+    reasons = config.stash.get(_EXACT, Counter[str]())
+    rows = [f"{count:>5} {reason}" for reason, count in reasons.most_common()]
+    return [f"{reasons.total()} simulated tests do not run with JITTER=1:", *rows] if rows else []
 
 
 def _is_selected(item: Item | None, clk_hz: int | None, model: bool) -> bool:

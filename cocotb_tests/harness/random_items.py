@@ -138,11 +138,16 @@ def parametrize(
     metafunc.parametrize(("item", "seeds"), sets, ids=[item.id for item, _ in sets])
 
 
+def batch_repro(item: Item) -> str:
+    """Return the command that repeats the batch of seeds that begins with an item."""
+    return f"make {item.target} T={item.id}{' JITTER=1' if jitters() else ''}"
+
+
 def run_batch(item: Item, seeds: str, options: SimOptions, design: Design | None = None) -> None:
     """Run the seeds of a batch in one simulation, as a pytest test."""
     __tracebackhide__ = True
     print(f"seeds {seeds}")
-    whole = {REPRO: f"make {item.target} T={item.id}"} if " " in seeds else {}
+    whole = {REPRO: batch_repro(item)} if " " in seeds else {}
     if message := attempt_random(item, options, {SEEDS: seeds, **whole}, design):
         pytest.fail(message, pytrace=False)
 
@@ -175,7 +180,7 @@ def play(items: Sequence[Item], design: Callable[[Item], Design | None], size: i
     alone = {item.seed: item for item in items}
     for first, seeds in batches(items, size):
         numbers = [int(word) for word in seeds.split()]
-        whole = {REPRO: f"make test T={first.id}"} if len(numbers) > 1 else {}
+        whole = {REPRO: batch_repro(first)} if len(numbers) > 1 else {}
         message = _attempt(played, first, {SEEDS: seeds, **whole}, design(first))
         if not message:
             continue

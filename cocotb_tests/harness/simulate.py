@@ -17,7 +17,7 @@ from cocotb_tests.harness import watchdog
 from .build import ICARUS, Design, build, from_root, sim_main, simulator
 from .collect import Item
 from .config import last_seed
-from .jitter import jitters
+from .jitter import jitters, stage_counts
 from .paths import ROOT, RUNS
 from .variants import keep_counts, mutant_plusargs
 
@@ -143,8 +143,13 @@ def outcomes(items: Sequence[Item], log: Path, results: Path, trouble: str) -> d
     known = {name: _outcome(name, part, end) for name, part in _parts(text)}
     whole = f"{end}\n{failure_text(text)}"
     found = {item: known.get(item.full_name, Outcome(MISSING, whole)) for item in items}
-    if trouble and all(outcome.good for outcome in found.values()):
+    good = all(outcome.good for outcome in found.values())
+    if trouble and good:
         return dict.fromkeys(items, Outcome(FAILED, whole))
+    if good and jitters() and any(item.tolerant for item in items):
+        late, prompt = stage_counts(text)
+        if not late or not prompt:
+            return dict.fromkeys(items, Outcome(FAILED, f"JITTER=1: {late} late, {prompt} prompt changes"))
     return found
 
 

@@ -8,6 +8,7 @@ from collections import deque
 import cocotb
 
 from ..harness import Block, BlockDriver, rng, same
+from ..harness.collect import exact
 
 PINS = "cs_ni rd_ni wr_ni a0_i d_i:8"
 READ_SIDE = "status_i:8 data_i:8 data_valid_i data_new_i"
@@ -27,6 +28,7 @@ BLOCKS = {
         f"style_i {PINS} d_o:8 d_oe_o state_i:6 ready_o command_o byte_o:8 take_i load_i long_i answer_i:24",
     ),
 }
+EVERY_CYCLE = "it checks the effect of the pins in every cycle, as tests of devices do"
 IDLE = {"cs_ni": 1, "rd_ni": 1, "wr_ni": 1}
 
 
@@ -46,6 +48,7 @@ def levels(kind: str, style: int) -> dict[str, int]:
     return {"cs_ni": 0, "rd_ni": int(kind == "read"), "wr_ni": 0}
 
 
+@exact(EVERY_CYCLE)
 @cocotb.test()
 async def bus_write_any_pins(dut):
     """For random pins, a write strobe whose end is sampled at edge 0 causes a write event at edge 2. Its byte
@@ -120,6 +123,7 @@ async def _read(u: BlockDriver, rand: random.Random, style: int, length: int, ga
         taken = taken and not unseen
 
 
+@exact(EVERY_CYCLE)
 @cocotb.test()
 async def bus_read(dut):
     """In a read, d_o loads on edges 0 and 1 and is then stable. A byte is consumed only if it was valid and
@@ -133,6 +137,7 @@ async def bus_read(dut):
             await _read(u, rand, style, rand.choice((1, 2, 3, 4, 9)), rand.randint(3, 6), early=True)
 
 
+@exact(EVERY_CYCLE)
 @cocotb.test()
 async def bus_read_after_gap_of_one(dut):
     """If only one edge samples the gap between two reads, the second read outputs its register from edge 0

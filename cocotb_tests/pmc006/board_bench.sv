@@ -24,10 +24,13 @@ module pmc006_board_bench (
     output logic      [3:0] lamps
 );
 
-  logic scl, sda, scl_part, sda_part, scl_device, sda_device;
+  logic scl, sda, scl_part, sda_part, scl_device, sda_device, scl_pin, sda_pin;
 
   assign scl = !(scl_part || scl_device);
   assign sda = !(sda_part || sda_device);
+
+  // The EEPROM has no clock in common with the part, so the pins of the part change while clk is low.
+  always_latch if (!clk) {scl_pin, sda_pin} = {scl, sda};
 
   eeprom_24c32 #(
       .WriteCycles(8_000)
@@ -72,9 +75,9 @@ module pmc006_board_bench (
       .conv,
       .adc_stb,
       .bemf_stb,
-      .scl_i    (scl),
+      .scl_i    (scl_pin),
       .scl_oe   (scl_part),
-      .sda_i    (sda),
+      .sda_i    (sda_pin),
       .sda_oe   (sda_part),
       .mon_step,
       .mon_dir  (),

@@ -62,10 +62,13 @@ module pmc006_eeprom_bench #(
     output logic            mon_busy
 );
 
-  logic scl_device, sda_device;
+  logic scl_device, sda_device, scl_pin, sda_pin;
 
   assign scl_i = !(scl_oe || scl_device);
   assign sda_i = !(sda_oe || sda_device);
+
+  // The EEPROM has no clock in common with the part, so the pins of the part change while clk is low.
+  always_latch if (!clk) {scl_pin, sda_pin} = {scl_i, sda_i};
 
   eeprom_24c32 u_eeprom (
       .clk_i   (clk),
@@ -118,10 +121,10 @@ module pmc006_eeprom_bench #(
       .m11,
       .m20,
       .m21,
-      .scl_i,
+      .scl_i(scl_pin),
       .scl_o,
       .scl_oe,
-      .sda_i,
+      .sda_i(sda_pin),
       .sda_o,
       .sda_oe,
       .mon_step,

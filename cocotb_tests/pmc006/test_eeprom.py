@@ -13,7 +13,9 @@ from openppmc.model.carrier.eeprom import Eeprom24C32
 from .tb_eeprom import WRITE_CLK
 
 TOP = "eeprom_24c32"
-ITEMS = cocotb_items("cocotb_tests.pmc006", "tb_eeprom", part=Part(TOP, {}))
+ITEMS = cocotb_items(
+    "cocotb_tests.pmc006", "tb_eeprom", part=Part(TOP, {}), exact="only the EEPROM is simulated"
+)
 ARGS = ("-Wno-fatal", "--public-flat-rw")
 
 

@@ -344,7 +344,10 @@ async def p2104_bad_12_turn_inside_a_strobe(dut: Any) -> None:
 
 
 @directed(
-    "P2104-BAD-15", "P2104-BUS-04", uncompared="the bus style changes inside strobes, which no rule fixes"
+    "P2104-BAD-15",
+    "P2104-BUS-04",
+    uncompared="the bus style changes inside strobes, which no rule fixes",
+    exact="the data change with the end of the strobe",
 )
 async def p2104_bad_15_style_changes_in_a_strobe(dut: Any) -> None:
     """If busc changes during a strobe, any result is allowed, but later accesses must be correct

@@ -16,6 +16,7 @@ from typing import Any
 
 from cocotb_tests.harness import BUSY, IBF, AxisDriver, DutBench, HostBus, start_bench
 from cocotb_tests.harness.axis_driver import differences
+from cocotb_tests.harness.checks import check_intervals
 from cocotb_tests.harness.dut_bench import TIMEOUT
 
 from .bench import STMC
@@ -152,12 +153,12 @@ class Env(AxisDriver):
         return await self.pulse(i + 1, plus)
 
     def train(self, rule: str, ticks: Sequence[int]) -> None:
-        """Check that the gaps between the steps of the last `go` are exactly `ticks`."""
+        """Check that the gaps between the steps of the last `go` are exactly `ticks` (STMC-CLK-03)."""
         steps = self.pulses
         self.check(rule, "number of steps", len(steps), len(ticks) + 1)
         if self.period:
             expected = [gap * self.period for gap in ticks]
-            self.check(rule, "gaps in cycles", differences(steps), expected)
+            check_intervals(self.bench, rule, differences(steps), expected)
         else:
             got = [t - steps[0] for t in steps]
             self.check(rule, "cycles from step 0", got, internal_offsets(self.cfg, list(ticks)))

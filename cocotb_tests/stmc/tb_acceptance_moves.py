@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import F16, directed
+from cocotb_tests.harness.checks import check_intervals
 
 from .env import Env
 from .expected_timing import EXT, F10, F12, INTERNAL, STANDARD, T0
@@ -91,7 +92,7 @@ async def stmc_ac_05_trapezoid(dut: Any) -> None:
     env.check("AC-05", "int_n", env.bench.level("int_n"), 0)
     env.check("AC-05", "status", await env.host.status(), 0x00)
     await env.outcome("AC-05", 20, 0x83, 0, W1)
-    env.check("AC-05", "sum of the gaps", env.pulses[-1] - env.pulses[0], 161 * EXT)
+    check_intervals(env.bench, "AC-05", [env.pulses[-1] - env.pulses[0]], [161 * EXT])
 
 
 @directed("AC-06", "AC-07", "STMC-MOV-02", "STMC-RUN-01")
@@ -111,9 +112,9 @@ async def stmc_ac_08_the_sheets_example(dut: Any) -> None:
     env.since = env.bench.now
     await env.host.run("c 43 d 20 d 03 d 00")
     await env.bench.edge("int_n", 0, 2_000_000)
-    steps, gaps = env.pulses, [gap // EXT for gap in env.intervals]
+    steps, gaps = env.pulses, [round(gap / EXT) for gap in env.intervals]
     env.check("AC-08", "steps", len(steps), 801)
-    env.check("AC-08", "sum of the gaps in cycles", steps[-1] - steps[0], 1_066_144)
+    check_intervals(env.bench, "AC-08", [steps[-1] - steps[0]], [1_066_144])
     env.check("AC-08", "first gaps", gaps[:4], [141, 140, 139, 139])
     env.check("AC-08", "last gaps", gaps[-4:], [139, 139, 140, 141])
 

@@ -51,7 +51,7 @@ async def stmc_bus_01_access_table(dut: Any) -> None:
     env.check("STMC-BUS-01", "status after accesses with cs_n = 1", await host.status(), 0x00)
 
 
-@directed("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12")
+@directed("STMC-BUS-06", "STMC-BUS-10", "STMC-BAD-12", exact="the data change with the end of the strobe")
 async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
     """If a read strobe interrupts a write, the byte that was sampled before is stored once (STMC-BUS-06)."""
     env = await Env.start(dut, None)
@@ -76,7 +76,7 @@ async def stmc_bus_06_overlapping_strobes(dut: Any) -> None:
     env.check("STMC-BUS-06", "status after the read", await env.host.status(), 0x40)
 
 
-@directed("STMC-BUS-10")
+@directed("STMC-BUS-10", exact="the data change with the end of the strobe")
 async def stmc_bus_10_what_ends_a_write(dut: Any) -> None:
     """If the data changes when wr_n, cs_n or rd_n ends a write, the byte before the change is stored
     (STMC-BUS-10).

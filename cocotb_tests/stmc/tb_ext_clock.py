@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from cocotb_tests.harness import F16, directed
-from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, shortest_levels, sweep
+from cocotb_tests.harness.checks import TOO_MANY, ExtMoves, check_delays, clock_delays, shortest_levels, sweep
 
 from .env import Env
 from .expected_timing import F8X20, Ramp, divisor
@@ -48,3 +48,24 @@ async def stmc_clk_02_shortest_levels(dut: Any) -> None:
     for move in shortest_levels(ramp, env.bench.rng):
         if move.rate is None:
             await moves.check(move)
+
+
+@directed("STMC-CLK-03", "STMC-IN-01", "STMC-IN-02", builds=(F16, F8X20))
+async def stmc_clk_03_delays(dut: Any) -> None:
+    """Limits, MON and the step clock take effect with the same delay; with JITTER=1, also one cycle later
+    (STMC-CLK-03, STMC-IN-02).
+    """
+    env = await Env.start(dut)
+    ends = []
+    for pin, code in (("l1_n", 0x45), ("l2_n", 0x4D), ("mon", 0x45), ("cnp_n", 0x47)) * 3:
+        await env.go(code, rate=99)
+        await env.pulse(1, 20)
+        stamp = env.bench.set(**{pin: 0})
+        ends.append(await env.wait_end() - stamp)
+        env.bench.set(**{pin: 1})
+        await env.finish()
+    check_delays(env.bench, "STMC-IN-02", "from pin to int_n", ends, 2, 7)
+    env = await Env.start(dut, clock=0)
+    # The first step does not follow a tick.
+    delays = (await clock_delays(env, rate=1))[1:]
+    check_delays(env.bench, "STMC-CLK-03", "from ext_clk to s", delays, 2, 7)

@@ -154,6 +154,7 @@ async def stmc_stp_01_emergency_stop(dut: Any) -> None:
 async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
     """If a stop pin changes 4 or more cycles before a step, this step is suppressed (STMC-IN-02)."""
     env = await Env.start(dut)
+    safe = 4 + 2 * env.bench.slack  # with JITTER=1, the pin may be late, and the step may be early
     for code, pin, bits in (
         (0x45, "l1_n", 0x10),
         (0x4D, "l2_n", 0x10),
@@ -170,7 +171,7 @@ async def stmc_in_02_pins_before_a_step(dut: Any) -> None:
             await env.blip(pin, 2)
             end = await env.wait_end()
             made = len(env.pulses)
-            env.window("STMC-IN-02", f"{pin}, {before} cycles before", made, 4, 4 if before >= 4 else 5)
+            env.window("STMC-IN-02", f"{pin}, {before} cycles before", made, 4, 4 if before >= safe else 5)
             env.window("STMC-IN-02", "pin to int_n", end - stamp, 0, 8)
             await env.result("STMC-IN-02", made, 0x80 | bits | code & 7, MOST - made)
 
@@ -210,7 +211,7 @@ async def stmc_in_03_what_is_ignored(dut: Any) -> None:
         env.check("STMC-FIN-04", "FIN with switches at rest", await env.finish(), finish)
 
 
-@directed("STMC-IN-04", "STMC-FIN-02")
+@directed("STMC-IN-04", "STMC-FIN-02", exact="the switches must be sampled at the same edge")
 async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
     """If several stop causes occur on one edge, all of them are recorded (STMC-IN-04)."""
     env = await Env.start(dut)
@@ -234,7 +235,7 @@ async def stmc_in_04_causes_in_one_clk(dut: Any) -> None:
         await env.result("STMC-IN-04", made, 0x80 | bits | code & 7, total - 1 - made)
 
 
-@directed("STMC-IN-04", "STMC-FIN-02", "STMC-IN-03")
+@directed("STMC-IN-04", "STMC-FIN-02", "STMC-IN-03", exact="the switches must be sampled at the same edge")
 async def stmc_in_04_limit_and_monitor_on_one_edge(dut: Any) -> None:
     """If l1_n and mon fall on the same edge, both bits are set, in each operation and with either clock
     (STMC-IN-04).
@@ -275,6 +276,7 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
     (STMC-DEC-07).
     """
     env = await Env.start(dut)
+    safe = 4 + 2 * env.bench.slack  # with JITTER=1, the request may be late, and the step may be early
     for how, _ in REQUESTS:
         for before in (0, 1, 2, 3, 4, 6, 12):
             await env.go(0x43, 100)
@@ -282,8 +284,8 @@ async def stmc_dec_07_requests_at_a_step(dut: Any) -> None:
             await env.bench.until(step + 7 * EXT - before - (4 if how == "c 41" else 0))
             await request(env, how)
             await env.idle()
-            choices = [slowed(100, 4)] + ([slowed(100, 5)] if before < 4 else [])
-            got = [gap // EXT for gap in differences(env.pulses)]
+            choices = [slowed(100, 4)] + ([slowed(100, 5)] if before < safe else [])
+            got = [round(gap / EXT) for gap in differences(env.pulses)]
             env.check("STMC-DEC-07", f"{how}, {before} cycles before: {got}", got in choices, True)
             await env.finish()
 

@@ -8,10 +8,11 @@ import pytest
 
 from cocotb_tests.harness import F16, check_ranges, cocotb_items, run_item
 
+from ..harness.isa import NANOSECONDS
 from .bench import J105_STMC
 from .board import design
 
-ITEMS = cocotb_items("cocotb_tests.stmc", "tb_board", part=J105_STMC)
+ITEMS = cocotb_items("cocotb_tests.stmc", "tb_board", part=J105_STMC, exact=NANOSECONDS)
 RANGES = {
     "BASE_ADDR": (("'h3B0", "0", "'h3FE"), ("'h3B1", "'h400")),
     "EXT_HZ": (("1", "48_675", "4_000_000"), ("0", "4_000_001")),

@@ -7,6 +7,7 @@ import math
 import cocotb
 
 from cocotb_tests.harness import configs
+from cocotb_tests.harness.jitter import jitters
 from openppmc.host.frames import encode
 
 from .bench import SECOND, Bench, now, same
@@ -81,6 +82,9 @@ async def line_tolerance(dut):
     """
     bench = await Bench.start(dut)
     for code, rate in rates_of(bench.config).items():
+        # The extra cycle of JITTER=1 at any phase exceeds the tolerance if a bit has fewer than 10 cycles.
+        if jitters() and bench.config.clk_hz < 10 * rate:
+            continue
         await bench.done(bytes([2, code]))
         bench.baud = rate
         for error in (-0.02, 0.02, -0.01, 0.01):

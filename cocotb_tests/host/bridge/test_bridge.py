@@ -25,12 +25,12 @@ ONE_FILE = ("--output-split", "0")
 # edge before the first rising edge of `clk`.
 FROM_ZERO = (*ONE_FILE, "--x-initial", "0")
 PART = Part("bridge", {})
-BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART)
+BANK_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_bank", part=PART, tolerant=True)
 BOARDS = ROOT / "rtl" / "boards"
-ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART, shared=True)
-BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART)
-CARRIER_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_carriers", part=PART)
-STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART)
+ITEMS = cocotb_items("cocotb_tests.host.bridge", *MODULES, part=PART, shared=True, tolerant=True)
+BOARD_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_board", part=PART, tolerant=True)
+CARRIER_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_carriers", part=PART, tolerant=True)
+STATION_ITEMS = cocotb_items("cocotb_tests.host.bridge", "tb_station", part=PART, tolerant=True)
 
 
 def bridge_design(item) -> Design:

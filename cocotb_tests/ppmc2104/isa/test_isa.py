@@ -5,14 +5,16 @@ from __future__ import annotations
 import pytest
 
 from cocotb_tests.harness import F16, cocotb_items, run_item
-from cocotb_tests.harness.blocks import area_design
+from cocotb_tests.harness.blocks import NO_STAGES, area_design
 from cocotb_tests.harness.build import SimError, build
 
+from ...harness.isa import NANOSECONDS
 from .setting import ISA_4AXIS, design
 from .tb_slave import BLOCKS
 
-ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", part=ISA_4AXIS, shared=True)
-SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", part=ISA_4AXIS, shared=True)
+HOW = {"part": ISA_4AXIS, "shared": True}
+ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_bus", "tb_motion", exact=NANOSECONDS, **HOW)
+SLAVE_ITEMS = cocotb_items("cocotb_tests.ppmc2104.isa", "tb_slave", exact=NO_STAGES, **HOW)
 RANDOM = [item for (item,) in (param.values for param in ITEMS) if item.test == "isa_random_both_parts"]
 # One seed of DATASHEET is enough, because its set-up is long.
 RANDOM = [item for item in RANDOM if not item.config.datasheet]

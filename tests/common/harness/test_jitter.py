@@ -1,15 +1,18 @@
-"""`StageLog` passes the levels that the synchronisers have sampled to the golden model (JITTER=1)."""
+"""JITTER=1: levels of the golden model, reasons of the tests that do not run, and counts of late changes."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from cocotb_tests.harness import jitter
+from cocotb_tests.harness import F16, jitter
+from cocotb_tests.harness.collect import Item
 from cocotb_tests.harness.part import PARTS, Part
 from cocotb_tests.harness.paths import ROOT
+from cocotb_tests.harness.simulate import outcomes
 from openppmc.check.records import Change
 
 PART = Part(
@@ -94,6 +97,47 @@ def test_sources(monkeypatch: pytest.MonkeyPatch) -> None:
     texts = [(ROOT / path).read_text(encoding="utf-8") for path in (sources[0], model)]
     ports = [re.findall(r"\b(\w+_n?[io])\b", text.split("module ")[1].split("\n);")[0]) for text in texts]
     assert ports[0] == ports[1] == ["clk_i", "rst_ni", "d_i", "q1_o", "q2_o"]
+
+
+def test_reasons() -> None:
+    """A test runs with JITTER=1, or states a reason; a test that does neither is an error."""
+    directed = Item("tb_bus", "p104_bus", F16, "ppmc104", (), uncompared="")
+    assert jitter.reason_against(directed) == ""
+    assert jitter.reason_against(replace(directed, exact="one edge")) == "one edge"
+    assert jitter.reason_against(replace(directed, module="ppmc104.tb_random", exact="one edge")) == ""
+    bridge = Item("tb_line", "line_rates", F16, "bridge", (), tolerant=True)
+    assert jitter.reason_against(bridge) == ""
+    for silent in (replace(bridge, tolerant=False), replace(directed, uncompared=None)):
+        with pytest.raises(ValueError, match="state why it does not run with JITTER=1"):
+            jitter.reason_against(silent)
+
+
+def test_counts_of_a_log() -> None:
+    """The counts of all synchronisers are added; a log without counts has none."""
+    log = "ppmc_sync: 3 late, 0 prompt\n  0.00ns INFO cocotb\nppmc_sync: 4 late, 12 prompt\n"
+    assert jitter.stage_counts(log) == (7, 12)
+    assert jitter.stage_counts("passed\n") == (0, 0)
+
+
+@pytest.mark.parametrize("changes", [(0, 0), (0, 5), (5, 0), (5, 5)])
+def test_no_late_change_is_a_failure(
+    changes: tuple[int, int], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With JITTER=1, a tolerant test fails if no change was sampled late, or none without delay."""
+    monkeypatch.setenv(jitter.JITTER, "1")
+    item = Item("tb_line", "line_rates", F16, "bridge", (), tolerant=True)
+    entry = "     0.00ns INFO     cocotb.regression                  "
+    log = tmp_path / "log.txt"
+    log.write_text(
+        f"{entry}running {item.full_name} (1/1)\n{entry}{item.full_name} passed\n"
+        f"ppmc_sync: {changes[0]} late, {changes[1]} prompt\n",
+        encoding="utf-8",
+    )
+    (outcome,) = outcomes([item], log, tmp_path / "results.xml", "").values()
+    assert outcome.good == all(changes), outcome
+    monkeypatch.delenv(jitter.JITTER)
+    (outcome,) = outcomes([item], log, tmp_path / "results.xml", "").values()
+    assert outcome.good, outcome
 
 
 @pytest.mark.parametrize("part", [part for part in PARTS.values() if part.stages], ids=lambda part: part.name)
