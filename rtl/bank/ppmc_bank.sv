@@ -85,7 +85,7 @@ module ppmc_bank
   // Bits of the number of cycles of the longest interval.
   localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);
 
-  logic go, go_active, stop, stop_active, read_data_we, irq_set, irq_clear;
+  logic go, go_active, stop, stop_active, read_data_we, irq_pending;
   logic [5:0][RoundBits-1:0] axis;
   logic [Round-1:0] last_stage;
   logic [6:0] clear;
@@ -172,8 +172,7 @@ module ppmc_bank
       .read_data_o    (read_data),
       .pin_cmd_o      (pin_cmd),
       .at_cycle_o     (at_cycle),
-      .irq_set_o      (irq_set),
-      .irq_clear_o    (irq_clear)
+      .irq_pending_o  (irq_pending)
   );
 
   // ---- axes ----------------------------------------------------------------------------------------
@@ -189,6 +188,7 @@ module ppmc_bank
   end
 
   for (genvar i = 0; i < AXES; i++) begin : g_axis
+    assign axis_pin_status[i].pout_n = pout_n[i];
     assign axis_pin_status[i].in_group = mask[i];
     assign axis_pin_status[i].switches = '{
             limit_cw: !levels[i],
@@ -212,9 +212,8 @@ module ppmc_bank
         .stop_i    (stop_active),
         .switches_i(axis_pin_status[i].switches),
         .armed_o   (axis_pin_status[i].armed),
-        .emitted_o (axis_pin_status[i].emitted),
         .stopped_o (axis_pin_status[i].stop),
-        .alarm_o   (axis_pin_status[i].alarm),
+        .alarm_no  (axis_pin_status[i].alarm_n),
         .limit_o   (axis_pin_status[i].limit),
         .s_o       (s[5*i+:5]),
         .hold_o    (hold[i]),
@@ -224,7 +223,7 @@ module ppmc_bank
 
     always_ff @(posedge clk or negedge rst_core_n) begin
       if (!rst_core_n) pending_q[i] <= 1'b0;
-      else if (last_stage[i] && (irq_set || irq_clear)) pending_q[i] <= irq_set;
+      else if (last_stage[i]) pending_q[i] <= irq_pending;
     end
   end
 

@@ -38,8 +38,7 @@ module ppmc_bank_engine
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
     output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output logic irq_pending_o  // 1: the axis has a pending interrupt
 );
 
   localparam int unsigned Round = 1 << RoundBits;
@@ -261,7 +260,6 @@ module ppmc_bank_engine
 
   pin_cmd_t   pin_cmd;
   read_data_t read_data;
-  logic irq_set, irq_clear;
   init_code_t init;
   logic unused_words;
 
@@ -294,9 +292,7 @@ module ppmc_bank_engine
       .hold_left_o (state2_d.hold_left),
       .position_o  (state2_d.position),
       .pin_cmd_o   (pin_cmd),
-      .read_data_o (read_data),
-      .irq_set_o   (irq_set),
-      .irq_clear_o (irq_clear)
+      .read_data_o (read_data)
   );
 
   assign state1_d.cycles_left = (restart_time_s4_q ? '0 : state1_s4_q.cycles_left) + add_cycles_s4_q;
@@ -333,8 +329,6 @@ module ppmc_bank_engine
     // set_pins without chop_edge acts in the first possible cycle. Others follow cycles_left cycles later.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
-    irq_set_o <= irq_set && !clear_i[4];
-    irq_clear_o <= irq_clear && !clear_i[4];
   end
 
   assign status_o = '{
@@ -344,6 +338,7 @@ module ppmc_bank_engine
           busy: state1_s5_q.motion.busy
       };
   assign position_o = state2_s5_q.position;
+  assign irq_pending_o = state2_s5_q.outputs.irq_pending;
 
 endmodule
 

@@ -53,6 +53,7 @@ module ppmc_bank_plan
   typedef logic [TimeBits-1:0] cycles_t;
 
   action_t act;
+  logic pulse_missing;  // 1: the last ordered pulse has not been output
   logic abort_motion, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
   logic has_ramp, pulses_done, is_init, last_init_byte, accept_ok, unused_stop, unused_bits;
   logic decelerating, halt, slow_limit, slow_limit_enabled, decel_forced;
@@ -64,8 +65,9 @@ module ppmc_bank_plan
 
   always_comb begin
     has_ramp = motion_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
-    cancel_pulse = abort_motion && !pin_status_i.emitted;
+    pulse_missing = motion_i.pulse_unseen && pin_status_i.pout_n;
+    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || pulse_missing);
+    cancel_pulse = abort_motion && pulse_missing;
     finish = motion_i.busy && (abort_motion ? cancel_pulse || !motion_i.pulse_low
         : !motion_i.more_pulses && !motion_i.pulse_low);
     init_done = init_state_i.building && compare_i.table_idle;

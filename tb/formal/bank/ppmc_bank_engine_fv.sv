@@ -24,7 +24,7 @@ module ppmc_bank_engine_fv
   logic [5:0][2:0] axis;
   logic [7:0] last_stage;
   logic [6:0] clear;
-  logic go, stop_active, read_data_we_o, irq_set_o, irq_clear_o;
+  logic go, stop_active, read_data_we_o, irq_pending_o;
   logic [TimeBits-1:0] go_delay;
   axis_status_t status_o;
   logic [31:0] position_o;
@@ -95,6 +95,7 @@ module ppmc_bank_engine_fv
   chop_units_t chop_units_q;
   axis_status_t status_q;
   logic [31:0] position_q;
+  output_state_t outputs_q;
   logic cmd_set_q, ramp_set_q, chop_set_q;  // 1: the host has set last_cmd_q, ramp_q, chop_units_q
 
   always_ff @(posedge clk_i)
@@ -149,6 +150,8 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_chop_units_kept,
              !(chop_set_q && axis[3] == watched_i) || dut.chop_units_s3_q == chop_units_q)
 
+  assign outputs_q = state2_q[HoldBits+32+:$bits(output_state_t)];
+
   // ---- effects of a visit ----------------------------------------------------------------------------
 
   logic next_visit;  // 1: a visit of the watched axis that is not its first
@@ -170,7 +173,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_hsk_04_read_data_from_a_byte,
              !(next_visit && read_data_we_o) || status_o.ack_seq != status_q.ack_seq)
   `FV_ASSERT(p104_end_07_interrupt_at_the_end,
-             !(next_visit && irq_set_o) || (status_q.busy && !status_o.busy))
+             !(next_visit && irq_pending_o && !outputs_q.irq_pending) || (status_q.busy && !status_o.busy))
   `FV_ASSERT(bank_gen_05_reset,
              !(resets && cycles_q > 5'd8) || (status_o == '0 && pin_cmd_o == '0 && position_o == '0))
 

@@ -33,8 +33,7 @@ module ppmc_bank_engine
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
     output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output logic irq_pending_o  // 1: the axis has a pending interrupt
 );
 
 endmodule
