@@ -90,8 +90,7 @@ module ppmc_bank
   logic [Round-1:0] last_stage;
   logic [6:0] clear;
   logic unused_clear;
-  logic [RoundBits-1:0] at_cycle;
-  logic [TimeBits-1:0] go_delay;
+  logic [RoundBits-1:0] at_cycle, go_left;
   in_buf_t in_buf;
   read_progress_t read_progress;
   logic [1:0] config_n;
@@ -105,9 +104,7 @@ module ppmc_bank
   assign unused_clear = ^{clear[5], clear[2:0]};
 
   ppmc_bank_scheduler #(
-      .RoundBits(RoundBits),
-      .WidthCycles(20 * Quantum),
-      .TimeBits(TimeBits)
+      .RoundBits(RoundBits)
   ) u_scheduler (
       .clk_i  (clk),
       .rst_ni (rst_core_n),
@@ -117,7 +114,7 @@ module ppmc_bank
       .last_stage_o (last_stage),
       .clear_o(clear),
       .go_o   (go_active),
-      .go_delay_o  (go_delay),
+      .go_left_o(go_left),
       .stop_o (stop_active)
   );
 
@@ -164,7 +161,7 @@ module ppmc_bank
       .read_progress_i(read_progress),
       .config_ni      (config_n),
       .go_i           (go_active),
-      .go_delay_i     (go_delay),
+      .go_left_i      (go_left),
       .pin_status_i   (pin_status),
       .status_o       (status),
       .position_o     (position),

@@ -28,7 +28,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
+    input wire logic [RoundBits-1:0] go_left_i,  // stage 2: further cycles for which go_i remains high
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
@@ -138,7 +138,7 @@ module ppmc_bank_engine
   axis_t build_axis;
   decoded_t decoded_s3_q;
   cmd_error_e param_error_s3_q;
-  logic [TimeBits-1:0] go_delay_s3_q;
+  logic [RoundBits-1:0] go_left_s3_q, go_left_s4_q;
   motion_state_t motion_s2;
 
   assign unused_bits = &{1'b0, state1_s4_q, ramp_s4_q, read_progress_s4_q, motion_s2};
@@ -154,7 +154,7 @@ module ppmc_bank_engine
     {state1_s3_q, interval_s3_q, after_low_s3_q} <= {state1_s2_q, interval_s2_q, after_low};
     {last_cmd_s3_q, ramp_s3_q} <= {last_cmd_s2_q, ramp_s2_q};
     pin_status_s3_q <= pin_status_i;
-    go_delay_s3_q <= go_delay_i;
+    {go_left_s4_q, go_left_s3_q} <= {go_left_s3_q, go_left_i};
     in_buf_new_s3_q <= in_buf_s2_q.seq != state1_s2_q.parser.ack_seq;
     decoded_s3_q <= decode(in_buf_s2_q.data);
     param_error_s3_q <= ppmc104_pkg::check_params({in_buf_s2_q.data, last_cmd_s2_q.params});
@@ -215,7 +215,6 @@ module ppmc_bank_engine
       .take_o        (take),
       .code_o        (code),
       .params_o      (params),
-      .go_delay_i    (go_delay_s3_q),
       .after_low_i   (after_low_s3_q),
       .decision_o    (decision),
       .restart_time_o(restart_time),
@@ -295,7 +294,14 @@ module ppmc_bank_engine
       .read_data_o (read_data)
   );
 
-  assign state1_d.cycles_left = (restart_time_s4_q ? '0 : state1_s4_q.cycles_left) + add_cycles_s4_q;
+  // Pulse 1 after GO occurs at the same time for all axes, although they are visited one after the other.
+  logic [TimeBits-1:0] old_cycles_left;
+  always_comb begin
+    old_cycles_left = restart_time_s4_q ? '0 : state1_s4_q.cycles_left;
+    if (decision_s4_q.go_accept) old_cycles_left = TimeBits'(go_left_s4_q);
+  end
+
+  assign state1_d.cycles_left = old_cycles_left + add_cycles_s4_q;
   assign state1_d.parser = parser_s4_q;
 
   always_ff @(posedge clk_i) begin

@@ -40,7 +40,6 @@ module ppmc_bank_plan
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
     input wire logic [TimeBits-1:0] after_low_i,  // cycles from end of low time to next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
     output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
@@ -213,9 +212,7 @@ module ppmc_bank_plan
   always_comb begin
     restart_time_o = decision_o.start || go_accept || finish || init_done;
     add_cycles_o   = -cycles_t'(Round);
-    if (go_accept) begin
-      add_cycles_o = go_delay_i;
-    end else if (finish || init_done || chop_edge) begin
+    if (finish || init_done || chop_edge) begin
       add_cycles_o =
           chop_time(chop_edge ? !outputs_i.phases_on : 1'b1, outputs_i.chop_programmed, extra_time_i);
     end else if (chop_unit) begin
@@ -231,7 +228,8 @@ module ppmc_bank_plan
         add_cycles_o =
             interval_i.slow_base ? cycles_t'(32 * Quantum - Round) : cycles_t'(8 * Quantum - Round);
     end
-    if (decision_o.start || (pulse && decision_o.last_pulse)) add_cycles_o = cycles_t'(WidthCycles - Round);
+    if (decision_o.start || go_accept || (pulse && decision_o.last_pulse))
+      add_cycles_o = cycles_t'(WidthCycles - Round);
   end
 
 endmodule

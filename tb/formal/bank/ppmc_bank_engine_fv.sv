@@ -25,25 +25,22 @@ module ppmc_bank_engine_fv
   logic [7:0] last_stage;
   logic [6:0] clear;
   logic go, stop_active, read_data_we_o, irq_pending_o;
-  logic [TimeBits-1:0] go_delay;
   axis_status_t status_o;
   logic [31:0] position_o;
   read_data_t read_data_o;
   pin_cmd_t pin_cmd_o;
-  logic [2:0] at_cycle_o;
+  logic [2:0] at_cycle_o, go_left;
 
   `FV_RESET
 
   ppmc_bank_scheduler #(
-      .RoundBits  (3),
-      .WidthCycles(20),
-      .TimeBits   (TimeBits)
+      .RoundBits(3)
   ) u_scheduler (
       .axis_o (axis),
       .last_stage_o (last_stage),
       .clear_o(clear),
       .go_o   (go),
-      .go_delay_o  (go_delay),
+      .go_left_o(go_left),
       .stop_o (stop_active),
       .*
   );
@@ -56,7 +53,7 @@ module ppmc_bank_engine_fv
       .axis_i (axis),
       .clear_i(clear[4:3]),
       .go_i   (go),
-      .go_delay_i  (go_delay),
+      .go_left_i(go_left),
       .*
   );
 

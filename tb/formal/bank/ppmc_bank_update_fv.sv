@@ -28,7 +28,6 @@ module ppmc_bank_update_fv
     input wire decoded_t             decoded_i,
     input wire cmd_error_e           param_error_i,
     input wire parser_state_t        parser_i,
-    input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i,
     input wire logic          [16:0] hold_left_i,
     input wire logic          [31:0] position_i

@@ -23,7 +23,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
+    input wire logic [RoundBits-1:0] go_left_i,  // stage 2: further cycles for which go_i remains high
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
