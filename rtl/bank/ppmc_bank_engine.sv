@@ -138,7 +138,7 @@ module ppmc_bank_engine
   axis_t build_axis;
   decoded_t decoded_s3_q;
   cmd_error_e param_error_s3_q;
-  logic [RoundBits-1:0] go_left_s3_q, go_left_s4_q;
+  logic [RoundBits-1:0] go_left_s3_q;
   motion_state_t motion_s2;
 
   assign unused_bits = &{1'b0, state1_s4_q, ramp_s4_q, read_progress_s4_q, motion_s2};
@@ -154,7 +154,7 @@ module ppmc_bank_engine
     {state1_s3_q, interval_s3_q, after_low_s3_q} <= {state1_s2_q, interval_s2_q, after_low};
     {last_cmd_s3_q, ramp_s3_q} <= {last_cmd_s2_q, ramp_s2_q};
     pin_status_s3_q <= pin_status_i;
-    {go_left_s4_q, go_left_s3_q} <= {go_left_s3_q, go_left_i};
+    go_left_s3_q <= go_left_i;
     in_buf_new_s3_q <= in_buf_s2_q.seq != state1_s2_q.parser.ack_seq;
     decoded_s3_q <= decode(in_buf_s2_q.data);
     param_error_s3_q <= ppmc104_pkg::check_params({in_buf_s2_q.data, last_cmd_s2_q.params});
@@ -169,7 +169,7 @@ module ppmc_bank_engine
     compare_s3_q.margin_zero  <= motion_s2.decel_margin == '0;
     compare_s3_q.margin_negative <= motion_s2.decel_margin[24];
     compare_s3_q.ramp_bottom  <= motion_s2.ramp_level[14:1] == '0;
-    compare_s3_q.ramp_top  <= motion_s2.ramp_level[StepBits-1:0] == ramp_s2_q.steps + 1'b1;
+    compare_s3_q.ramp_top  <= motion_s2.ramp_level[StepBits-1:0] > ramp_s2_q.steps;
     compare_s3_q.go    <= go_i;
     compare_s3_q.table_idle <= !(build_busy && build_axis == axis_i[2]);
   end
@@ -177,10 +177,10 @@ module ppmc_bank_engine
   // ---- stage 3: plan -------------------------------------------------------------------------------
 
   decision_t decision, decision_s4_q;
-  logic take, take_s4_q, restart_time, restart_time_s4_q;
+  logic take, take_s4_q, restart_time;
   logic [7:0] code, code_s4_q;
   logic [31:0] params, params_s4_q;
-  logic [TimeBits-1:0] add_cycles, add_cycles_s4_q;
+  logic [TimeBits-1:0] cycles_left_s4_q, add_cycles, add_cycles_s4_q;
   ppmc_code_pkg::parser_state_t parser_state, parser_state_s3;
   parser_t parser_s3, parser_s4_q;
 
@@ -244,9 +244,12 @@ module ppmc_bank_engine
       state1_s3_q, interval_s3_q, state2_s3_q, pin_status_s3_q
     };
     {read_progress_s4_q, config_n_s4_q} <= {read_progress_s3_q, config_n_s3_q};
-    {decision_s4_q, code_s4_q, params_s4_q, restart_time_s4_q, add_cycles_s4_q} <= {
-      clear_i[3] ? '0 : decision, code, params, restart_time, add_cycles
+    {decision_s4_q, code_s4_q, params_s4_q, add_cycles_s4_q} <= {
+      clear_i[3] ? '0 : decision, code, params, add_cycles
     };
+    // With go_left_s3_q, pulse 1 after GO occurs in the same cycle for all axes.
+    if (!restart_time) cycles_left_s4_q <= state1_s3_q.cycles_left;
+    else cycles_left_s4_q <= decision.go_accept ? TimeBits'(go_left_s3_q) : '0;
     {take_s4_q, ramp_s4_q, chop_units_s4_q} <= {take, ramp_s3_q, chop_units_s3_q};
     parser_s4_q <= '{
         ack_seq: take ? in_buf_s3_q.seq : parser_s3.ack_seq,
@@ -257,7 +260,7 @@ module ppmc_bank_engine
 
   // ---- stage 4: update -----------------------------------------------------------------------------
 
-  pin_cmd_t   pin_cmd;
+  pin_cmd_t pin_cmd;
   read_data_t read_data;
   init_code_t init;
   logic unused_words;
@@ -294,14 +297,7 @@ module ppmc_bank_engine
       .read_data_o (read_data)
   );
 
-  // Pulse 1 after GO occurs at the same time for all axes, although they are visited one after the other.
-  logic [TimeBits-1:0] old_cycles_left;
-  always_comb begin
-    old_cycles_left = restart_time_s4_q ? '0 : state1_s4_q.cycles_left;
-    if (decision_s4_q.go_accept) old_cycles_left = TimeBits'(go_left_s4_q);
-  end
-
-  assign state1_d.cycles_left = old_cycles_left + add_cycles_s4_q;
+  assign state1_d.cycles_left = cycles_left_s4_q + add_cycles_s4_q;
   assign state1_d.parser = parser_s4_q;
 
   always_ff @(posedge clk_i) begin

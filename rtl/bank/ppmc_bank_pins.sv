@@ -4,8 +4,10 @@
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
 //         cycle in which cycle_i = at_cycle_q. The field halt does not wait for this cycle. It takes effect
-//         at the end of the first cycle in which it is valid. A switch acts in the cycle in which it is
-//         active on switches_i.
+//         at the end of the first cycle in which it is valid, and remains effective until the next command.
+//         A switch acts in the cycle in which it is active on switches_i.
+// Assumes: a command with a pulse has the levels of hold_o and dir_o, because only a start and the hold time
+//         change them.
 `include "ppmc_assert.svh"
 `default_nettype none
 

@@ -144,8 +144,8 @@ module ppmc_bank_plan
     decision_o.pulse = pulse && !halt;
     // While the rate of the interval still changes, the low time may become longer. Therefore the low time
     // does not end before its length is known.
-    low_may_grow =
-        compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
+    low_may_grow = compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered
+        && interval_i.rate inside {8'd0, 8'd1, 8'd2};
     decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
     decision_o.rate_next = compare_i.rate_mismatch && !decision_o.pulse_end && !cancel_pulse;
     decision_o.level_down = has_ramp && (decel_forced || compare_i.margin_negative);

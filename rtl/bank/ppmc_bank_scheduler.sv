@@ -8,9 +8,9 @@
 `default_nettype none
 
 module ppmc_bank_scheduler #(
-    parameter  int unsigned RoundBits   = 5,
-    parameter  int unsigned Stages      = 6,              // stages of a visit, numbered from 0
-    localparam int unsigned Round       = 1 << RoundBits
+    parameter  int unsigned RoundBits = 5,
+    parameter  int unsigned Stages    = 6,              // stages of a visit, numbered from 0
+    localparam int unsigned Round     = 1 << RoundBits
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,

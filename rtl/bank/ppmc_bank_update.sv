@@ -116,8 +116,7 @@ module ppmc_bank_update
     end
 
     interval_o = interval_i;
-    if (decision_i.rate_next)
-      interval_o.rate = interval_i.decel ? interval_i.rate + 1'b1 : interval_i.rate - 1'b1;
+    interval_o.rate += {{7{decision_i.rate_next && !interval_i.decel}}, decision_i.rate_next};
     if (decision_i.pulse && decision_i.decel_point) interval_o.decel = 1'b1;
     if (decision_i.start) begin
       interval_o = '{slow_base: config_ni[0], extra_time: config_ni[1], decel: 1'b0, rate: slow_i};
