@@ -93,7 +93,6 @@ module ppmc_bank_engine
   state_s2_t state2_s2_q, state2_s3_q, state2_s4_q, state2_d, state2_s5_q;
   interval_t interval_pre_q, interval_s0_q, interval_s1_q, interval_s2_q, interval_s3_q, interval_s4_q;
   interval_t interval_d, interval_s5_q;
-  logic [7:0] lookup_rate_s0_q;
   logic [StepBits-1:0] threshold;
   logic [TimeBits-1:0] after_low, after_low_s3_q;
 
@@ -107,9 +106,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // During deceleration (decel = 1), ramp_level is compared with the threshold of the next slower rate.
     interval_s0_q <= interval_pre_q;
-    lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
     interval_s2_q <= interval_s1_q;
     {state1_s2_q, last_cmd_s2_q, ramp_s2_q} <= {state1_s1_q, last_cmd_s1_q, ramp_s1_q};
@@ -221,6 +218,7 @@ module ppmc_bank_engine
       .add_cycles_o  (add_cycles)
   );
 
+  // During deceleration (decel = 1), ramp_level is compared with the threshold of the next slower rate.
   ppmc_bank_tables #(
       .AxisBits(RoundBits),
       .StepBits(StepBits)
@@ -235,7 +233,7 @@ module ppmc_bank_engine
       .build_busy_o (build_busy),
       .build_axis_o (build_axis),
       .axis_i       (axis_i[0]),
-      .rate_i       (lookup_rate_s0_q),
+      .rate_i       (interval_s0_q.rate + 8'(interval_s0_q.decel)),
       .threshold_o  (threshold)
   );
 
