@@ -85,13 +85,12 @@ module ppmc_bank
   // Bits of the number of cycles of the longest interval.
   localparam int unsigned TimeBits = $clog2(Quantum * (256 * 32 + 30) + 1);
 
-  logic go, go_active, stop, stop_active, read_data_we, irq_set, irq_clear;
+  logic go, go_active, stop, stop_active, read_data_we, irq_pending;
   logic [5:0][RoundBits-1:0] axis;
   logic [Round-1:0] last_stage;
   logic [6:0] clear;
   logic unused_clear;
-  logic [RoundBits-1:0] at_cycle;
-  logic [TimeBits-1:0] go_delay;
+  logic [RoundBits-1:0] at_cycle, go_left;
   in_buf_t in_buf;
   read_progress_t read_progress;
   logic [1:0] config_n;
@@ -105,9 +104,7 @@ module ppmc_bank
   assign unused_clear = ^{clear[5], clear[2:0]};
 
   ppmc_bank_scheduler #(
-      .RoundBits(RoundBits),
-      .WidthCycles(20 * Quantum),
-      .TimeBits(TimeBits)
+      .RoundBits(RoundBits)
   ) u_scheduler (
       .clk_i  (clk),
       .rst_ni (rst_core_n),
@@ -117,7 +114,7 @@ module ppmc_bank
       .last_stage_o (last_stage),
       .clear_o(clear),
       .go_o   (go_active),
-      .go_delay_o  (go_delay),
+      .go_left_o(go_left),
       .stop_o (stop_active)
   );
 
@@ -164,7 +161,7 @@ module ppmc_bank
       .read_progress_i(read_progress),
       .config_ni      (config_n),
       .go_i           (go_active),
-      .go_delay_i     (go_delay),
+      .go_left_i      (go_left),
       .pin_status_i   (pin_status),
       .status_o       (status),
       .position_o     (position),
@@ -172,8 +169,7 @@ module ppmc_bank
       .read_data_o    (read_data),
       .pin_cmd_o      (pin_cmd),
       .at_cycle_o     (at_cycle),
-      .irq_set_o      (irq_set),
-      .irq_clear_o    (irq_clear)
+      .irq_pending_o  (irq_pending)
   );
 
   // ---- axes ----------------------------------------------------------------------------------------
@@ -189,6 +185,7 @@ module ppmc_bank
   end
 
   for (genvar i = 0; i < AXES; i++) begin : g_axis
+    assign axis_pin_status[i].pout_n = pout_n[i];
     assign axis_pin_status[i].in_group = mask[i];
     assign axis_pin_status[i].switches = '{
             limit_cw: !levels[i],
@@ -212,9 +209,8 @@ module ppmc_bank
         .stop_i    (stop_active),
         .switches_i(axis_pin_status[i].switches),
         .armed_o   (axis_pin_status[i].armed),
-        .emitted_o (axis_pin_status[i].emitted),
         .stopped_o (axis_pin_status[i].stop),
-        .alarm_o   (axis_pin_status[i].alarm),
+        .alarm_no  (axis_pin_status[i].alarm_n),
         .limit_o   (axis_pin_status[i].limit),
         .s_o       (s[5*i+:5]),
         .hold_o    (hold[i]),
@@ -224,7 +220,7 @@ module ppmc_bank
 
     always_ff @(posedge clk or negedge rst_core_n) begin
       if (!rst_core_n) pending_q[i] <= 1'b0;
-      else if (last_stage[i] && (irq_set || irq_clear)) pending_q[i] <= irq_set;
+      else if (last_stage[i]) pending_q[i] <= irq_pending;
     end
   end
 

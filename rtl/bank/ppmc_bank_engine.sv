@@ -28,7 +28,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
+    input wire logic [RoundBits-1:0] go_left_i,  // stage 2: further cycles for which go_i remains high
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
@@ -38,8 +38,7 @@ module ppmc_bank_engine
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
     output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output logic irq_pending_o  // 1: the axis has a pending interrupt
 );
 
   localparam int unsigned Round = 1 << RoundBits;
@@ -94,7 +93,6 @@ module ppmc_bank_engine
   state_s2_t state2_s2_q, state2_s3_q, state2_s4_q, state2_d, state2_s5_q;
   interval_t interval_pre_q, interval_s0_q, interval_s1_q, interval_s2_q, interval_s3_q, interval_s4_q;
   interval_t interval_d, interval_s5_q;
-  logic [7:0] lookup_rate_s0_q;
   logic [StepBits-1:0] threshold;
   logic [TimeBits-1:0] after_low, after_low_s3_q;
 
@@ -108,9 +106,7 @@ module ppmc_bank_engine
     last_cmd_s1_q <= last_cmd_mem[axis_i[0]];
     ramp_s1_q <= ramp_mem[axis_i[0]];
     chop_units_s3_q <= chop_units_mem[axis_i[2]];
-    // During deceleration (decel = 1), ramp_level is compared with the threshold of the next slower rate.
     interval_s0_q <= interval_pre_q;
-    lookup_rate_s0_q <= interval_pre_q.rate + 8'(interval_pre_q.decel);
     interval_s1_q <= interval_s0_q;
     interval_s2_q <= interval_s1_q;
     {state1_s2_q, last_cmd_s2_q, ramp_s2_q} <= {state1_s1_q, last_cmd_s1_q, ramp_s1_q};
@@ -139,7 +135,7 @@ module ppmc_bank_engine
   axis_t build_axis;
   decoded_t decoded_s3_q;
   cmd_error_e param_error_s3_q;
-  logic [TimeBits-1:0] go_delay_s3_q;
+  logic [RoundBits-1:0] go_left_s3_q;
   motion_state_t motion_s2;
 
   assign unused_bits = &{1'b0, state1_s4_q, ramp_s4_q, read_progress_s4_q, motion_s2};
@@ -155,7 +151,7 @@ module ppmc_bank_engine
     {state1_s3_q, interval_s3_q, after_low_s3_q} <= {state1_s2_q, interval_s2_q, after_low};
     {last_cmd_s3_q, ramp_s3_q} <= {last_cmd_s2_q, ramp_s2_q};
     pin_status_s3_q <= pin_status_i;
-    go_delay_s3_q <= go_delay_i;
+    go_left_s3_q <= go_left_i;
     in_buf_new_s3_q <= in_buf_s2_q.seq != state1_s2_q.parser.ack_seq;
     decoded_s3_q <= decode(in_buf_s2_q.data);
     param_error_s3_q <= ppmc104_pkg::check_params({in_buf_s2_q.data, last_cmd_s2_q.params});
@@ -170,7 +166,7 @@ module ppmc_bank_engine
     compare_s3_q.margin_zero  <= motion_s2.decel_margin == '0;
     compare_s3_q.margin_negative <= motion_s2.decel_margin[24];
     compare_s3_q.ramp_bottom  <= motion_s2.ramp_level[14:1] == '0;
-    compare_s3_q.ramp_top  <= motion_s2.ramp_level[StepBits-1:0] == ramp_s2_q.steps + 1'b1;
+    compare_s3_q.ramp_top  <= motion_s2.ramp_level[StepBits-1:0] > ramp_s2_q.steps;
     compare_s3_q.go    <= go_i;
     compare_s3_q.table_idle <= !(build_busy && build_axis == axis_i[2]);
   end
@@ -178,10 +174,10 @@ module ppmc_bank_engine
   // ---- stage 3: plan -------------------------------------------------------------------------------
 
   decision_t decision, decision_s4_q;
-  logic take, take_s4_q, restart_time, restart_time_s4_q;
+  logic take, take_s4_q, restart_time;
   logic [7:0] code, code_s4_q;
   logic [31:0] params, params_s4_q;
-  logic [TimeBits-1:0] add_cycles, add_cycles_s4_q;
+  logic [TimeBits-1:0] cycles_left_s4_q, add_cycles, add_cycles_s4_q;
   ppmc_code_pkg::parser_state_t parser_state, parser_state_s3;
   parser_t parser_s3, parser_s4_q;
 
@@ -216,13 +212,13 @@ module ppmc_bank_engine
       .take_o        (take),
       .code_o        (code),
       .params_o      (params),
-      .go_delay_i    (go_delay_s3_q),
       .after_low_i   (after_low_s3_q),
       .decision_o    (decision),
       .restart_time_o(restart_time),
       .add_cycles_o  (add_cycles)
   );
 
+  // During deceleration (decel = 1), ramp_level is compared with the threshold of the next slower rate.
   ppmc_bank_tables #(
       .AxisBits(RoundBits),
       .StepBits(StepBits)
@@ -237,7 +233,7 @@ module ppmc_bank_engine
       .build_busy_o (build_busy),
       .build_axis_o (build_axis),
       .axis_i       (axis_i[0]),
-      .rate_i       (lookup_rate_s0_q),
+      .rate_i       (interval_s0_q.rate + 8'(interval_s0_q.decel)),
       .threshold_o  (threshold)
   );
 
@@ -246,9 +242,12 @@ module ppmc_bank_engine
       state1_s3_q, interval_s3_q, state2_s3_q, pin_status_s3_q
     };
     {read_progress_s4_q, config_n_s4_q} <= {read_progress_s3_q, config_n_s3_q};
-    {decision_s4_q, code_s4_q, params_s4_q, restart_time_s4_q, add_cycles_s4_q} <= {
-      clear_i[3] ? '0 : decision, code, params, restart_time, add_cycles
+    {decision_s4_q, code_s4_q, params_s4_q, add_cycles_s4_q} <= {
+      clear_i[3] ? '0 : decision, code, params, add_cycles
     };
+    // With go_left_s3_q, pulse 1 after GO occurs in the same cycle for all axes.
+    if (!restart_time) cycles_left_s4_q <= state1_s3_q.cycles_left;
+    else cycles_left_s4_q <= decision.go_accept ? TimeBits'(go_left_s3_q) : '0;
     {take_s4_q, ramp_s4_q, chop_units_s4_q} <= {take, ramp_s3_q, chop_units_s3_q};
     parser_s4_q <= '{
         ack_seq: take ? in_buf_s3_q.seq : parser_s3.ack_seq,
@@ -259,9 +258,8 @@ module ppmc_bank_engine
 
   // ---- stage 4: update -----------------------------------------------------------------------------
 
-  pin_cmd_t   pin_cmd;
+  pin_cmd_t pin_cmd;
   read_data_t read_data;
-  logic irq_set, irq_clear;
   init_code_t init;
   logic unused_words;
 
@@ -294,12 +292,10 @@ module ppmc_bank_engine
       .hold_left_o (state2_d.hold_left),
       .position_o  (state2_d.position),
       .pin_cmd_o   (pin_cmd),
-      .read_data_o (read_data),
-      .irq_set_o   (irq_set),
-      .irq_clear_o (irq_clear)
+      .read_data_o (read_data)
   );
 
-  assign state1_d.cycles_left = (restart_time_s4_q ? '0 : state1_s4_q.cycles_left) + add_cycles_s4_q;
+  assign state1_d.cycles_left = cycles_left_s4_q + add_cycles_s4_q;
   assign state1_d.parser = parser_s4_q;
 
   always_ff @(posedge clk_i) begin
@@ -333,8 +329,6 @@ module ppmc_bank_engine
     // set_pins without chop_edge acts in the first possible cycle. Others follow cycles_left cycles later.
     at_cycle_o     <= axis_i[0] + axis_t'(2)
         + (pin_cmd.set_pins && !decision_s4_q.chop_edge ? '0 : axis_t'(state1_s4_q.cycles_left));
-    irq_set_o <= irq_set && !clear_i[4];
-    irq_clear_o <= irq_clear && !clear_i[4];
   end
 
   assign status_o = '{
@@ -344,6 +338,7 @@ module ppmc_bank_engine
           busy: state1_s5_q.motion.busy
       };
   assign position_o = state2_s5_q.position;
+  assign irq_pending_o = state2_s5_q.outputs.irq_pending;
 
 endmodule
 

@@ -4,8 +4,10 @@
 // Rules:  BANK-MOT-01/02, BANK-GRP-04, P104-LIM-03..07, P104-TIM-04, P104-END-02/04, P104-PORT-02/03.
 // Timing: a command is valid in pin_cmd_q from the cycle after load_i on. It is executed at the end of the
 //         cycle in which cycle_i = at_cycle_q. The field halt does not wait for this cycle. It takes effect
-//         at the end of the first cycle in which it is valid. A switch acts in the cycle in which it is
-//         active on switches_i.
+//         at the end of the first cycle in which it is valid, and remains effective until the next command.
+//         A switch acts in the cycle in which it is active on switches_i.
+// Assumes: a command with a pulse has the levels of hold_o and dir_o, because only a start and the hold time
+//         change them.
 `include "ppmc_assert.svh"
 `default_nettype none
 
@@ -27,9 +29,8 @@ module ppmc_bank_pins
     input wire switches_t switches_i,  // switches, synchronised
     // status for the visits
     output logic armed_o,  // 1: pulses may be output
-    output logic emitted_o,  // 1: the last ordered pulse has been output
     output logic stopped_o,  // armed_o = 0 because of STOP or a stop command
-    output logic alarm_o,  // armed_o = 0 because of an alarm
+    output logic alarm_no,  // 0: armed_o = 0 because of an alarm
     output logic limit_o,  // armed_o = 0 because of the limit in the direction of motion
     // pins
     output logic [5:1] s_o,  // phases
@@ -40,13 +41,11 @@ module ppmc_bank_pins
 
   pin_cmd_t pin_cmd_q;
   logic [RoundBits-1:0] at_cycle_q;
-  logic loads_pulse;  // strobe: a command with a pulse is loaded
   // cycle_hit: the command is executed in this cycle; end_motion: a switch, STOP or a halt ends the motion in
   // this cycle
   logic cycle_hit, limit, halt, end_motion, pulse, pulse_end, set_pins, unused_slow;
 
   assign unused_slow = switches_i.slow_cw ^ switches_i.slow_ccw;
-  assign loads_pulse = load_i && pin_cmd_i.pulse;
   assign cycle_hit = at_cycle_q == cycle_i;
   assign limit = pin_cmd_q.ccw ? switches_i.limit_ccw : switches_i.limit_cw;
   assign halt = pin_cmd_q.halt || stop_i;
@@ -59,17 +58,14 @@ module ppmc_bank_pins
   // may still be pending. In this case, the action is executed in exactly the cycle of load_i.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      pin_cmd_q                     <= '0;
-      at_cycle_q                    <= '0;
-      armed_o                       <= 1'b0;
-      emitted_o                     <= 1'b1;
-      {stopped_o, alarm_o, limit_o} <= '0;
+      pin_cmd_q                      <= '0;
+      at_cycle_q                     <= '0;
+      armed_o                        <= 1'b0;
+      {stopped_o, alarm_no, limit_o} <= 3'b010;
     end else begin
-      pin_cmd_q.halt <= 1'b0;
       if (load_i) {pin_cmd_q, at_cycle_q} <= {pin_cmd_i, at_cycle_i};
-      if (set_pins || end_motion || (pulse && !pin_cmd_q.arm)) armed_o <= set_pins && pin_cmd_q.arm;
-      if (loads_pulse || pulse || set_pins) emitted_o <= !loads_pulse;
-      if (armed_o) {stopped_o, alarm_o, limit_o} <= {halt, switches_i.alarm, limit};
+      armed_o <= (pulse || set_pins) ? pin_cmd_q.arm : armed_o && !end_motion;
+      if (armed_o) {stopped_o, alarm_no, limit_o} <= {halt, !switches_i.alarm, limit};
     end
   end
 
@@ -81,8 +77,7 @@ module ppmc_bank_pins
       dir_o   <= 1'b0;
     end else begin
       if (pulse || pulse_end) pout_no <= pin_cmd_q.pulse_end;
-      if (pulse || set_pins) s_o <= pin_cmd_q.s;
-      if (set_pins) {hold_o, dir_o} <= {pin_cmd_q.hold, pin_cmd_q.ccw};
+      if (pulse || set_pins) {s_o, hold_o, dir_o} <= {pin_cmd_q.s, pin_cmd_q.hold, pin_cmd_q.ccw};
     end
   end
 

@@ -99,6 +99,7 @@ package ppmc_bank_pkg;
     logic        last_ordered;   // 1: the last pulse has been ordered
     logic        held;           // 1: the axis waits for GO
     logic        pulse_low;      // 1: the start of a pulse was ordered, but its end was not
+    logic        pulse_unseen;   // 1: no visit since the order of the last pulse has sampled pout_n = 0
     logic        decel_forced;   // 1: deceleration was requested
     logic        decel_natural;  // 1: deceleration has begun because of the pulse count
     logic        flag_stop;      // 1: a command requested the deceleration
@@ -129,6 +130,7 @@ package ppmc_bank_pkg;
     logic        two_phases;       // 1: two adjacent phases are on (ppmc_motion_pkg)
     logic [5:1]  pattern;          // phases, 1: on
     logic        finish_unread;    // 1: the host has not read the finish status
+    logic        irq_pending;      // 1: the axis has a pending interrupt
     stop_cause_t cause;            // cause of the end of the last motion
     logic [1:0]  read_data_seq;    // seq of the last stored response
   } output_state_t;
@@ -136,9 +138,9 @@ package ppmc_bank_pkg;
   // State of the pin block and of the switches of an axis, sampled by a visit.
   typedef struct packed {
     logic      armed;     // 1: pulses may be output
-    logic      emitted;   // 1: the last ordered pulse has been output
+    logic      pout_n;    // level of the pin pout_n
     logic      stop;      // armed = 0 because of STOP or a stop command
-    logic      alarm;     // armed = 0 because of an alarm
+    logic      alarm_n;   // 0: armed = 0 because of an alarm
     logic      limit;     // armed = 0 because of a limit
     logic      in_group;  // 1: the axis is a member of the group
     switches_t switches;

@@ -40,7 +40,6 @@ module ppmc_bank_plan
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
     input wire logic [TimeBits-1:0] after_low_i,  // cycles from end of low time to next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
     output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added
@@ -53,6 +52,7 @@ module ppmc_bank_plan
   typedef logic [TimeBits-1:0] cycles_t;
 
   action_t act;
+  logic pulse_missing;  // 1: the last ordered pulse has not been output
   logic abort_motion, cancel_pulse, finish, init_done, go_accept, go_reject, chop_unit, chop_edge;
   logic has_ramp, pulses_done, is_init, last_init_byte, accept_ok, unused_stop, unused_bits;
   logic decelerating, halt, slow_limit, slow_limit_enabled, decel_forced;
@@ -64,8 +64,9 @@ module ppmc_bank_plan
 
   always_comb begin
     has_ramp = motion_i.op inside {OP_ACC_DEC, OP_CONT_HIGH};
-    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || !pin_status_i.emitted);
-    cancel_pulse = abort_motion && !pin_status_i.emitted;
+    pulse_missing = motion_i.pulse_unseen && pin_status_i.pout_n;
+    abort_motion = motion_i.busy && !pin_status_i.armed && (motion_i.more_pulses || pulse_missing);
+    cancel_pulse = abort_motion && pulse_missing;
     finish = motion_i.busy && (abort_motion ? cancel_pulse || !motion_i.pulse_low
         : !motion_i.more_pulses && !motion_i.pulse_low);
     init_done = init_state_i.building && compare_i.table_idle;
@@ -143,8 +144,8 @@ module ppmc_bank_plan
     decision_o.pulse = pulse && !halt;
     // While the rate of the interval still changes, the low time may become longer. Therefore the low time
     // does not end before its length is known.
-    low_may_grow =
-        compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered && interval_i.rate < 8'd3;
+    low_may_grow = compare_i.rate_mismatch && fast_no_extra && !motion_i.last_ordered
+        && interval_i.rate inside {8'd0, 8'd1, 8'd2};
     decision_o.pulse_end = motion_i.pulse_low && compare_i.edge_in_round && !low_may_grow && !cancel_pulse;
     decision_o.rate_next = compare_i.rate_mismatch && !decision_o.pulse_end && !cancel_pulse;
     decision_o.level_down = has_ramp && (decel_forced || compare_i.margin_negative);
@@ -211,9 +212,7 @@ module ppmc_bank_plan
   always_comb begin
     restart_time_o = decision_o.start || go_accept || finish || init_done;
     add_cycles_o   = -cycles_t'(Round);
-    if (go_accept) begin
-      add_cycles_o = go_delay_i;
-    end else if (finish || init_done || chop_edge) begin
+    if (finish || init_done || chop_edge) begin
       add_cycles_o =
           chop_time(chop_edge ? !outputs_i.phases_on : 1'b1, outputs_i.chop_programmed, extra_time_i);
     end else if (chop_unit) begin
@@ -229,7 +228,8 @@ module ppmc_bank_plan
         add_cycles_o =
             interval_i.slow_base ? cycles_t'(32 * Quantum - Round) : cycles_t'(8 * Quantum - Round);
     end
-    if (decision_o.start || (pulse && decision_o.last_pulse)) add_cycles_o = cycles_t'(WidthCycles - Round);
+    if (decision_o.start || go_accept || (pulse && decision_o.last_pulse))
+      add_cycles_o = cycles_t'(WidthCycles - Round);
   end
 
 endmodule

@@ -8,11 +8,9 @@
 `default_nettype none
 
 module ppmc_bank_scheduler #(
-    parameter  int unsigned RoundBits   = 5,
-    parameter  int unsigned WidthCycles = 500,            // pulse width in cycles
-    parameter  int unsigned TimeBits    = 20,
-    parameter  int unsigned Stages      = 6,              // stages of a visit, numbered from 0
-    localparam int unsigned Round       = 1 << RoundBits
+    parameter  int unsigned RoundBits = 5,
+    parameter  int unsigned Stages    = 6,              // stages of a visit, numbered from 0
+    localparam int unsigned Round     = 1 << RoundBits
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -22,7 +20,7 @@ module ppmc_bank_scheduler #(
     output logic [Round-1:0] last_stage_o,  // [i]: axis i is in the last stage
     output logic [Stages:0] clear_o,  // [i]: reset the axis in stage i
     output logic go_o,  // 1: GO is active for the visits in this cycle
-    output logic [TimeBits-1:0] go_delay_o,  // pulse width minus the time since GO, in cycles
+    output logic [RoundBits-1:0] go_left_o,  // number of further cycles for which go_o remains high
     output logic stop_o  // 1: end every running motion
 );
 
@@ -38,8 +36,6 @@ module ppmc_bank_scheduler #(
     end
   end
 
-  // Number of further cycles for which go_o remains high.
-  logic [RoundBits-1:0] go_left_q;
   // Number of further cycles for which stop_o remains high. In total, stop_o is high for one round + 1 cycle,
   // because an operation that starts just before STOP is armed only at the end of this time.
   logic [RoundBits:0] stop_left_q;
@@ -48,18 +44,15 @@ module ppmc_bank_scheduler #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       {go_o, go_pending_q, stop_o} <= '0;
-      {go_left_q, stop_left_q} <= '0;
-      go_delay_o <= '0;
+      {go_left_o, stop_left_q} <= '0;
     end else begin
-      if (go_o && go_left_q != '0) begin
+      if (go_o && go_left_o != '0) begin
         go_pending_q <= go_pending_q || go_i;
-        go_left_q    <= go_left_q - 1'b1;
-        go_delay_o   <= go_delay_o - 1'b1;
+        go_left_o    <= go_left_o - 1'b1;
       end else begin
         go_o         <= go_i || go_pending_q;
         go_pending_q <= go_i && go_pending_q;
-        go_left_q    <= '1;
-        go_delay_o   <= TimeBits'(WidthCycles - 1);
+        go_left_o    <= '1;
       end
       stop_o      <= stop_i || (stop_o && stop_left_q != '0);
       stop_left_q <= stop_i ? (RoundBits + 1)'(Round) : stop_left_q - 1'b1;

@@ -40,9 +40,7 @@ module ppmc_bank_update
     output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output read_data_t read_data_o,  // response to a read command; valid with decision_i.read
-    output logic irq_set_o,  // 1: set the pending interrupt of the axis
-    output logic irq_clear_o  // 1: clear the pending interrupt of the axis
+    output read_data_t read_data_o  // response to a read command; valid with decision_i.read
 );
 
   op_code_t   code;
@@ -79,6 +77,7 @@ module ppmc_bank_update
     motion_o.decel_forced = motion_i.decel_forced || decision_i.flag_stop || decision_i.flag_slow;
     motion_o.flag_stop = motion_i.flag_stop || decision_i.flag_stop;
     motion_o.flag_slow = motion_i.flag_slow || decision_i.flag_slow;
+    motion_o.pulse_unseen = decision_i.pulse || (motion_i.pulse_unseen && pin_status_i.pout_n);
     if (decision_i.go_accept) motion_o.held = 1'b0;
     if (decision_i.pulse_end || decision_i.cancel_pulse) motion_o.pulse_low = 1'b0;
     if (decision_i.abort_motion) motion_o.more_pulses = 1'b0;
@@ -117,8 +116,7 @@ module ppmc_bank_update
     end
 
     interval_o = interval_i;
-    if (decision_i.rate_next)
-      interval_o.rate = interval_i.decel ? interval_i.rate + 1'b1 : interval_i.rate - 1'b1;
+    interval_o.rate += {{7{decision_i.rate_next && !interval_i.decel}}, decision_i.rate_next};
     if (decision_i.pulse && decision_i.decel_point) interval_o.decel = 1'b1;
     if (decision_i.start) begin
       interval_o = '{slow_base: config_ni[0], extra_time: config_ni[1], decel: 1'b0, rate: slow_i};
@@ -166,13 +164,15 @@ module ppmc_bank_update
       outputs_o.finish_unread = 1'b1;
       outputs_o.cause = '{
           stop: pin_status_i.stop || motion_i.flag_stop,
-          alarm: pin_status_i.alarm,
+          alarm: !pin_status_i.alarm_n,
           limit: pin_status_i.limit,
           slow: motion_i.flag_slow
       };
       if (decel_margin[24]) outputs_o.cause = '0;
     end
-    if (irq_clear_o) outputs_o.finish_unread = 1'b0;
+    if (decision_i.finish && !motion_i.silent) outputs_o.irq_pending = 1'b1;
+    if (decision_i.read && decision_i.read_select == SEL_FINISH)
+      {outputs_o.finish_unread, outputs_o.irq_pending} = '0;
     if (decision_i.read) outputs_o.read_data_seq = read_data_o.seq;
 
     hold_left_o = hold_left_i - HoldBits'(decision_i.hold_running);
@@ -184,8 +184,6 @@ module ppmc_bank_update
   logic [5:1] levels;
 
   assign levels = outputs_i.pattern ^ {5{!outputs_i.positive}};
-  assign irq_set_o = decision_i.finish && !motion_i.silent;
-  assign irq_clear_o = decision_i.read && decision_i.read_select == SEL_FINISH;
 
   always_comb begin
     pin_cmd_o = '{

@@ -24,26 +24,23 @@ module ppmc_bank_engine_fv
   logic [5:0][2:0] axis;
   logic [7:0] last_stage;
   logic [6:0] clear;
-  logic go, stop_active, read_data_we_o, irq_set_o, irq_clear_o;
-  logic [TimeBits-1:0] go_delay;
+  logic go, stop_active, read_data_we_o, irq_pending_o;
   axis_status_t status_o;
   logic [31:0] position_o;
   read_data_t read_data_o;
   pin_cmd_t pin_cmd_o;
-  logic [2:0] at_cycle_o;
+  logic [2:0] at_cycle_o, go_left;
 
   `FV_RESET
 
   ppmc_bank_scheduler #(
-      .RoundBits  (3),
-      .WidthCycles(20),
-      .TimeBits   (TimeBits)
+      .RoundBits(3)
   ) u_scheduler (
       .axis_o (axis),
       .last_stage_o (last_stage),
       .clear_o(clear),
       .go_o   (go),
-      .go_delay_o  (go_delay),
+      .go_left_o(go_left),
       .stop_o (stop_active),
       .*
   );
@@ -56,7 +53,7 @@ module ppmc_bank_engine_fv
       .axis_i (axis),
       .clear_i(clear[4:3]),
       .go_i   (go),
-      .go_delay_i  (go_delay),
+      .go_left_i(go_left),
       .*
   );
 
@@ -95,6 +92,7 @@ module ppmc_bank_engine_fv
   chop_units_t chop_units_q;
   axis_status_t status_q;
   logic [31:0] position_q;
+  output_state_t outputs_q;
   logic cmd_set_q, ramp_set_q, chop_set_q;  // 1: the host has set last_cmd_q, ramp_q, chop_units_q
 
   always_ff @(posedge clk_i)
@@ -149,6 +147,8 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_gen_05_chop_units_kept,
              !(chop_set_q && axis[3] == watched_i) || dut.chop_units_s3_q == chop_units_q)
 
+  assign outputs_q = state2_q[HoldBits+32+:$bits(output_state_t)];
+
   // ---- effects of a visit ----------------------------------------------------------------------------
 
   logic next_visit;  // 1: a visit of the watched axis that is not its first
@@ -170,7 +170,7 @@ module ppmc_bank_engine_fv
   `FV_ASSERT(bank_hsk_04_read_data_from_a_byte,
              !(next_visit && read_data_we_o) || status_o.ack_seq != status_q.ack_seq)
   `FV_ASSERT(p104_end_07_interrupt_at_the_end,
-             !(next_visit && irq_set_o) || (status_q.busy && !status_o.busy))
+             !(next_visit && irq_pending_o && !outputs_q.irq_pending) || (status_q.busy && !status_o.busy))
   `FV_ASSERT(bank_gen_05_reset,
              !(resets && cycles_q > 5'd8) || (status_o == '0 && pin_cmd_o == '0 && position_o == '0))
 

@@ -51,7 +51,7 @@ module ppmc_bank_fv
   logic [2:0] alarm_q, cw_q, ccw_q;  // alarm and limits of the watched axis in the last three cycles
   logic switch_acts;  // the alarm or the limit of the direction acts in this cycle
   logic blocked_q, blocked_q2;  // blocked_q: it has acted, and the axis has not been armed since then
-  logic irq_changed_q;  // 1: an interrupt has begun or ended
+  logic irq_known_q;  // 1: a visit has ended, so the pending interrupt is known
   logic ends, visited_q;  // ends: visit of the watched axis in its last stage; visited_q: it has ended
 
   logic state_known;  // 1: a visit has ended, so the state is known
@@ -67,11 +67,18 @@ module ppmc_bank_fv
 
   // Only a start changes the direction, and it sets the pins.
   logic [3:0] last_ccw;  // direction of the last command of each axis
+  logic [3:0] set_pins;  // 1: the axis sets dir, hold and s
   for (genvar i = 0; i < 4; i++) begin : g_ccw
     assign last_ccw[i] = dut.g_axis[i].u_pins.pin_cmd_q.ccw;
+    assign set_pins[i] = dut.g_axis[i].u_pins.set_pins;
   end
   `FV_ASSUME(direction_kept,
              !dut.last_stage[watched_i] || dut.pin_cmd.set_pins || dut.pin_cmd.ccw == last_ccw[watched_i])
+  // From the start of a motion to its end, dir and hold do not change.
+  logic levels_kept_holds;
+  assign levels_kept_holds = {dut.pin_cmd.ccw, dut.pin_cmd.hold} == {dir[watched_i], hold[watched_i]}
+      && !set_pins[watched_i];
+  `FV_ASSUME(levels_kept, !(dut.last_stage[watched_i] && dut.pin_cmd.pulse) || levels_kept_holds)
 
   always_ff @(posedge clk_i) begin
     {pout_q, dir_q, hold_q, s_q} <= {pout_n[watched_i], dir[watched_i], hold[watched_i], s[5*watched_i+:5]};
@@ -80,11 +87,11 @@ module ppmc_bank_fv
     blocked_q2 <= rst_ni && blocked_q;
     if (!rst_ni) begin
       {pin_cmd_q, at_cycle_q, cycles_q, pending_q} <= '0;
-      {irq_changed_q, cmd_executed_q, had_pulse_q, visited_q, blocked_q} <= '0;
+      {irq_known_q, cmd_executed_q, had_pulse_q, visited_q, blocked_q} <= '0;
     end else begin
       cycles_q <= (cycles_q == '1) ? '1 : cycles_q + 1'b1;
       if (ends) {visited_q, pin_cmd_q, at_cycle_q} <= {1'b1, dut.pin_cmd, dut.at_cycle};
-      if (ends && (dut.irq_set || dut.irq_clear)) {irq_changed_q, pending_q} <= {1'b1, dut.irq_set};
+      if (ends) {irq_known_q, pending_q} <= {1'b1, dut.irq_pending};
       cmd_executed_q <= executes;
       had_pulse_q <= pin_cmd_q.pulse;
       blocked_q <= state_known && !(executes && pin_cmd_q.set_pins && pin_cmd_q.arm) &&
@@ -118,7 +125,7 @@ module ppmc_bank_fv
       dut.pin_status.switches.limit_cw == cw_q[1] && dut.pin_status.switches.limit_ccw == ccw_q[1] &&
       dut.pin_status.in_group == dut.mask[watched_i]);
   `FV_ASSERT(bank_mot_05_own_switches, bank_mot_05_own_switches_holds)
-  `FV_ASSERT(bank_win_08_map, !irq_changed_q || dut.pending_q[watched_i] == pending_q)
+  `FV_ASSERT(bank_win_08_map, !irq_known_q || dut.pending_q[watched_i] == pending_q)
   `FV_ASSERT(bank_win_08_pending, !state_known || int_n == $past(dut.pending_q == '0))
   `FV_COVER(seen_blocked, blocked_q2 && dir[watched_i] && executes && pin_cmd_q.pulse)
   `FV_COVER(seen_pulse, state_known && pout_q && !pout_n[watched_i] && pending_q)

@@ -16,7 +16,7 @@ module ppmc_bank_pins_fv
 );
 
   logic [2:0] cycle_i;
-  logic load_i, armed_o, emitted_o, stopped_o, alarm_o, limit_o, hold_o, pout_no, dir_o;
+  logic load_i, armed_o, stopped_o, alarm_no, limit_o, hold_o, pout_no, dir_o;
   logic [5:1] s_o;
 
   `FV_RESET
@@ -44,6 +44,10 @@ module ppmc_bank_pins_fv
     end
 
   `FV_ASSUME(one_pin_action, 2'(pin_cmd_i.pulse) + 2'(pin_cmd_i.pulse_end) + 2'(pin_cmd_i.set_pins) <= 2'd1)
+  // From the start of a motion to its end, dir and hold do not change.
+  logic levels_kept_holds;
+  assign levels_kept_holds = {pin_cmd_i.ccw, pin_cmd_i.hold} == {dir_o, hold_o} && !dut.set_pins;
+  `FV_ASSUME(levels_kept, !(load_i && pin_cmd_i.pulse) || levels_kept_holds)
   `FV_ASSUME(pulses_end_first, !(load_i && pin_cmd_i.pulse) || (pout_no && !dut.pulse) || dut.pulse_end)
 
   logic pulse_seen_q;  // 1: a pulse has been output
@@ -57,6 +61,7 @@ module ppmc_bank_pins_fv
              (dut.pin_cmd_q.pulse_end && cycle_i == at_cycle_q))
   `FV_ASSERT(p104_tim_04_one_edge, !(s_o != $past(s_o) && $past(rst_ni)) || $past(dut.set_pins) || !pout_no)
   `FV_ASSERT(direction_stable, !($past(rst_ni) && dir_o != $past(dir_o)) || $past(dut.set_pins))
+  `FV_ASSERT(hold_stable, !($past(rst_ni) && hold_o != $past(hold_o)) || $past(dut.set_pins))
   `FV_ASSERT(p104_end_04_cause, !(!armed_o && $past(rst_ni && armed_o) && limit_o) || $past(limit))
   `FV_COVER(seen_pulse_blocked, armed_o && dut.cycle_hit && dut.pin_cmd_q.pulse && limit && pulse_seen_q)
 

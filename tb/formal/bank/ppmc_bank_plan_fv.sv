@@ -24,7 +24,6 @@ module ppmc_bank_plan_fv
     input wire decoded_t             decoded_i,
     input wire cmd_error_e           param_error_i,
     input wire parser_state_t        parser_i,
-    input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i
 );
 
@@ -78,8 +77,7 @@ module ppmc_bank_plan_fv
   `FV_ASSERT(bank_grp_02_reject_is_an_error, !decision_o.go_reject || parser_o.error)
   logic bank_grp_02_first_pulse_holds;
   assign bank_grp_02_first_pulse_holds =
-      !decision_o.go_accept || decision_o.finish || decision_o.pulse_end ||
-      (restart_time_o && add_cycles_o == go_delay_i);
+      !decision_o.go_accept || (restart_time_o && add_cycles_o == 18'(WidthCycles - Round));
   `FV_ASSERT(bank_grp_02_first_pulse, bank_grp_02_first_pulse_holds)
   `FV_ASSERT(bank_mot_01_first_pulse,
              !decision_o.start || (restart_time_o && add_cycles_o == 18'(WidthCycles - Round)))

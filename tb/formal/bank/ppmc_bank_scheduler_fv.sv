@@ -16,17 +16,11 @@ module ppmc_bank_scheduler_fv (
   logic [7:0] last_stage_o;
   logic [6:0] clear_o;
   logic go_o, stop_o;
-  logic [5:0] go_delay_o;
+  logic [2:0] go_left_o;
 
   `FV_RESET
 
-  ppmc_bank_scheduler #(
-      .RoundBits  (3),
-      .WidthCycles(40),
-      .TimeBits   (6)
-  ) dut (
-      .*
-  );
+  ppmc_bank_scheduler #(.RoundBits(3)) dut (.*);
 
   `FV_ASSUME(one_axis, watched_i == $past(watched_i))
 
@@ -39,10 +33,9 @@ module ppmc_bank_scheduler_fv (
     if (!rst_ni) {cycles_q, visits_q, stop_q, go_pending_q} <= {8'd0, 4'd15, 1'b0};
     else begin
       cycles_q <= (cycles_q == '1) ? '1 : cycles_q + 1'b1;
-      visits_q <= (!go_o || go_delay_o == 6'd32) ? '0
-          : visits_q + 3'(axis_o[2] == watched_i && cycles_q >= 5'd6);
+      visits_q <= (!go_o || go_left_o == '0) ? '0 : visits_q + 3'(axis_o[2] == watched_i && cycles_q >= 5'd6);
       stop_q <= stop_i ? '0 : (stop_q == '1) ? '1 : stop_q + 1'b1;
-      go_pending_q <= go_i || (go_pending_q && !(go_o && go_delay_o == 6'd39));
+      go_pending_q <= go_i || (go_pending_q && !(go_o && go_left_o == '1));
     end
 
   `FV_ASSERT(bank_gen_01_axes_in_order, !$past(rst_ni) || axis_o[0] == $past(axis_o[0]) + 1'b1)
@@ -56,9 +49,10 @@ module ppmc_bank_scheduler_fv (
   `FV_ASSERT(bank_gen_05_reset_once, cycles_q < 5'd8 || !clear_o[0])
   `FV_ASSERT(bank_grp_02_once_per_axis, visits_q <= 3'd1)
   `FV_ASSERT(bank_grp_02_go_within_a_round, !go_pending_q || go_o)
-  `FV_ASSERT(bank_grp_02_go_delay, !go_o || (go_delay_o <= 6'd39 && go_delay_o >= 6'd32))
+  `FV_ASSERT(bank_grp_02_go_left, !go_o || go_left_o == '1 || ($past(go_o) && go_left_o == $past(go_left_o)
+             - 1'b1))
   `FV_ASSERT(bank_grp_04_stop_lasts, stop_o == (stop_q <= 4'd8))
-  `FV_COVER(seen_two_go, go_o && go_delay_o == 6'd39 && $past(go_o) && cycles_q == 5'd20)
+  `FV_COVER(seen_two_go, go_o && go_left_o == '1 && $past(go_o) && cycles_q == 5'd20)
   `FV_COVER(seen_stop, stop_q == 4'd8)
 
 endmodule

@@ -28,14 +28,13 @@ module ppmc_bank_update_fv
     input wire decoded_t             decoded_i,
     input wire cmd_error_e           param_error_i,
     input wire parser_state_t        parser_i,
-    input wire logic          [17:0] go_delay_i,
     input wire logic          [17:0] after_low_i,
     input wire logic          [16:0] hold_left_i,
     input wire logic          [31:0] position_i
 );
 
   parser_state_t parser_o;
-  logic take_o, restart_time_o, irq_set_o, irq_clear_o;
+  logic take_o, restart_time_o;
   logic [7:0] code_o;
   logic [31:0] params_o, position_o;
   decision_t decision_o;
@@ -63,6 +62,7 @@ module ppmc_bank_update_fv
 
   // Invariants of the state of a motion.
   `FV_ASSUME(no_pulse_at_standstill, motion_i.busy || !(motion_i.more_pulses || motion_i.pulse_low))
+  `FV_ASSUME(no_hold_in_a_motion, !motion_i.busy || !outputs_i.hold)
   `FV_ASSUME(no_motion_during_build, !init_state_i.building || !motion_i.busy)
   `FV_ASSUME(valid_kind, decoded_i.kind <= CmdAuxOff && decoded_i.params <= 3'd4)
   `FV_ASSUME(valid_params,
@@ -83,6 +83,10 @@ module ppmc_bank_update_fv
   `FV_ASSERT(direction_at_the_pins, motion_o.ccw == pin_cmd_o.ccw)
   `FV_ASSERT(direction_changes_with_the_pins,
              motion_o.ccw == motion_i.ccw || (decision_o.start && pin_cmd_o.set_pins))
+  `FV_ASSERT(hold_changes_with_the_pins, outputs_o.hold == outputs_i.hold || pin_cmd_o.set_pins)
+  `FV_ASSERT(no_hold_in_the_next_visit, !motion_o.busy || !outputs_o.hold)
+  `FV_ASSERT(hold_at_a_pulse, !pin_cmd_o.pulse || !pin_cmd_o.hold)
+  `FV_ASSERT(no_pins_during_motion, !pin_cmd_o.set_pins || !motion_i.busy)
   `FV_ASSERT(no_start_during_motion, !decision_o.start || !motion_i.busy)
   `FV_ASSERT(valid_for_the_next_visit, motion_o.busy || !(motion_o.more_pulses || motion_o.pulse_low))
   `FV_ASSERT(rate_by_one, decision_o.start || interval_o.rate - interval_i.rate inside {8'd0, 8'd1, 8'hFF})

@@ -23,7 +23,7 @@ module ppmc_bank_engine
     input wire read_progress_t read_progress_i,  // stage 1: response bytes that the host has read
     input wire logic [1:0] config_ni,  // stage 1: vsel and csel, inverted
     input wire logic go_i,  // stage 2: GO is active
-    input wire logic [TimeBits-1:0] go_delay_i,  // stage 2: pulse width minus the time since GO, in cycles
+    input wire logic [RoundBits-1:0] go_left_i,  // stage 2: further cycles for which go_i remains high
     // from pin blocks and switches
     input wire pin_status_t pin_status_i,  // stage 2: pin block and switches
     // results of a visit, stage 5
@@ -33,8 +33,7 @@ module ppmc_bank_engine
     output read_data_t read_data_o,  // response to a read command
     output pin_cmd_t pin_cmd_o,  // command to the pin block
     output logic [RoundBits-1:0] at_cycle_o,  // cycle of the round in which the pin block executes pin_cmd_o
-    output logic irq_set_o,  // set the pending interrupt of the axis
-    output logic irq_clear_o  // clear the pending interrupt of the axis
+    output logic irq_pending_o  // 1: the axis has a pending interrupt
 );
 
 endmodule

@@ -34,7 +34,6 @@ module ppmc_bank_plan
     output logic [7:0] code_o,  // code of the command in decision_o
     output logic [31:0] params_o,  // parameters of code_o
     // decisions
-    input wire logic [TimeBits-1:0] go_delay_i,  // pulse width minus the time since GO, in cycles
     input wire logic [TimeBits-1:0] after_low_i,  // cycles from end of low time to next pulse, minus Round
     output decision_t decision_o,  // decisions of the visit
     output logic restart_time_o,  // 1: clear cycles_left before add_cycles_o is added

@@ -37,9 +37,7 @@ module ppmc_bank_update
     output logic [31:0] position_o,  // CW pulses minus CCW pulses
     // outputs
     output pin_cmd_t pin_cmd_o,  // command to the pin block
-    output read_data_t read_data_o,  // response to a read command; valid with decision_i.read
-    output logic irq_set_o,  // 1: set the pending interrupt of the axis
-    output logic irq_clear_o  // 1: clear the pending interrupt of the axis
+    output read_data_t read_data_o  // response to a read command; valid with decision_i.read
 );
 
 endmodule
