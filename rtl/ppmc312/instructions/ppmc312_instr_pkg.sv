@@ -73,7 +73,7 @@ package ppmc312_instr_pkg;
   // Source of a byte of a response: one of the bytes that ppmc312_response_writer lists in this order. With
   // source 0, bits 12:5 are the byte.
   typedef enum logic [12:0] {
-    ByteNone,     // after the last byte
+    ByteNone,      // after the last byte
     ByteCode,      // code of the instruction
     BytePar,       // first parameter
     ByteLen,       // length byte of the instruction
