@@ -83,7 +83,7 @@
 ../rtl/ppmc312/instructions/ppmc312_instr_rom.sv
 ../rtl/ppmc312/instructions/ppmc312_instr_check.sv
 ../rtl/ppmc312/instructions/ppmc312_response_format.sv
-../rtl/ppmc312/instructions/ppmc312_result_data.sv
+../rtl/ppmc312/instructions/ppmc312_response_rom.sv
 ../rtl/ppmc312/instructions/ppmc312_response_writer.sv
 ../rtl/ppmc312/instructions/ppmc312_table_read.sv
 ../rtl/ppmc312/instructions/ppmc312_free_curve.sv

@@ -32,7 +32,6 @@ module ppmc312_exec
     // state of the device
     input wire axis_state_t state_i,  // state of the motor side
     input wire table_t table_i,  // active table
-    input wire result_data_t result_data_i,  // data that block_o returns
     input wire logic elapsed_i,  // the processing time of block_o has passed
     output logic idle_o,  // 1: no instruction is being processed
     // execution
@@ -71,6 +70,7 @@ module ppmc312_exec
   state_e state_q, state_d;
   instr_info_t info;
   check_e check;
+  response_kind_e executed_kind;
   source_e source;
   response_t next;
   logic move_ends, setup_ends;
@@ -123,7 +123,8 @@ module ppmc312_exec
   ppmc312_instr_rom u_instr_rom (
       .clk_i,
       .code_i(code),
-      .info_o(info)
+      .info_o(info),
+      .kind_o(executed_kind)
   );
 
   ppmc312_instr_check u_check (
@@ -217,23 +218,23 @@ module ppmc312_exec
       (setup_ends && setup_status_i.failed));
 
   ppmc312_response_format u_format (
-      .block_i    (block_o),
-      .check_i    (check),
-      .error_i    (error),
-      .status_i   (state_i.status),
-      .at_boot_i  (state_q == StBoot),
-      .at_act_i   (act),
-      .at_setup_i (state_q == StSetup),
-      .at_copy_i  (state_q == StCopy),
-      .at_move_i  (state_q == StMove),
-      .fails_i    (fails),
-      .registers_i(ov),
-      .used_i     (used),
-      .evt_count_i(evt_count),
-      .result_data_i,
+      .block_i      (block_o),
+      .check_i      (check),
+      .error_i      (error),
+      .status_i     (state_i.status),
+      .at_boot_i    (state_q == StBoot),
+      .at_act_i     (act),
+      .at_setup_i   (state_q == StSetup),
+      .at_copy_i    (state_q == StCopy),
+      .at_move_i    (state_q == StMove),
+      .fails_i      (fails),
+      .registers_i  (ov),
+      .used_i       (used),
+      .evt_count_i  (evt_count),
+      .result_kind_i(executed_kind),
       .setup_status_i,
       .move_status_i,
-      .response_o (next)
+      .response_o   (next)
   );
 
   always_ff @(posedge clk_i) begin

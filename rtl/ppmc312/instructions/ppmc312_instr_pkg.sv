@@ -24,36 +24,88 @@ package ppmc312_instr_pkg;
     CheckSize      // response F6
   } check_e;
 
-  // Source of the last bytes of a response.
-  typedef enum logic [1:0] {
-    TailNone,
-    TailPos,    // 4 bytes: a position
-    TailCodes,  // 4 bytes: codes of an event buffer
-    TailSums    // 6 bytes: sums of the acceleration and deceleration pulses of the table
-  } response_tail_e;
+  // Kind of a response. ppmc312_response_rom contains its layout.
+  typedef enum logic [4:0] {
+    // results of an executed instruction, selected by its code
+    KindCode,         // no data
+    KindNumber,       // response_t.number
+    KindPar,          // first parameter
+    KindFlag,         // new state of the setting that the instruction toggles
+    KindAuxi,
+    KindPins,
+    KindVersion,
+    KindPos,
+    KindEntries,      // event buffer
+    KindState,
+    KindTable,        // data blocks follow
+    KindProgress,     // free curve: next list, remaining stages
+    // other responses
+    KindBoot,
+    KindSums,         // free curve: complete
+    KindStored,
+    KindFull,
+    KindParam,        // with the echo of the instruction
+    KindStatus,
+    KindLimit,
+    KindCommand,
+    KindSize,
+    KindFailEvent,
+    KindFailOverride
+  } response_kind_e;
 
-  // Data that an executed instruction returns: the bytes after the code in its response.
-  typedef struct packed {
-    logic [3:0]      extra;  // number of bytes, 0 .. 9
-    logic [2:0][7:0] data;   // first bytes, data[0] first
-    response_tail_e  tail;   // source of the last bytes
-  } result_data_t;
+  function automatic response_kind_e result_kind(logic [7:0] code);
+    unique case (code)
+      I_END:                                                        return KindPar;
+      I_LOCK, I_SYNC:                                               return KindFlag;
+      I_AUX_IN:                                                     return KindAuxi;
+      I_PINS:                                                       return KindPins;
+      I_VERSION:                                                    return KindVersion;
+      I_POS:                                                        return KindPos;
+      I_EVT_READ:                                                   return KindEntries;
+      I_STATUS:                                                     return KindState;
+      I_TABLE:                                                      return KindTable;
+      I_FREE:                                                       return KindProgress;
+      I_MOVE, I_CONST, I_HIGH, I_CONT, I_ORIGIN, I_ZERO, I_EVT_SET: return KindNumber;
+      default:                                                      return KindCode;
+    endcase
+  endfunction
 
-  // A response without its length byte, which is computed when the response is written.
+  // Source of a byte of a response: one of the bytes that ppmc312_response_writer lists in this order. With
+  // source 0, bits 12:5 are the byte.
+  typedef enum logic [12:0] {
+    ByteNone,      // after the last byte
+    ByteCode,      // code of the instruction
+    BytePar,       // first parameter
+    ByteLen,       // length byte of the instruction
+    ByteEcho,      // byte of the instruction, as received
+    ByteEchoLen,   // length byte of a response with an echo
+    ByteNumber,    // response_t.number
+    ByteStatus,    // response_t.status
+    ByteFlag,
+    ByteAuxi,
+    BytePins[2],
+    ByteState[3],
+    ByteCount,     // entries of an event buffer
+    ByteNext,      // next entry of an event buffer
+    ByteEntry,     // code of an entry of an event buffer
+    ByteLeft,      // remaining stages of a list of a free curve
+    ByteUsed[3],   // stages of the table
+    BytePos[4],    // position
+    ByteSum[6]     // acceleration and deceleration pulses of the table
+  } byte_source_e;
+
+  // A response before it is written.
   typedef struct packed {
-    logic [7:0]      head;
-    logic [7:0]      code;
-    logic [3:0]      extra;  // bytes after the code, 0 .. 9
-    logic [2:0][7:0] data;   // first bytes after the code, data[0] first
-    response_tail_e  tail;   // source of the last bytes after the code
-    logic            echo;   // 1: append the instruction as received
+    response_kind_e kind;
+    logic [7:0]     number;  // first byte after the code, if the layout contains ByteNumber
+    status_e        status;  // status of the device, for ByteStatus
   } response_t;
 
   // Commands to the blocks that write responses and the data blocks of a table read. All fields except
   // hold_data are strobes.
   typedef struct packed {
     logic write;       // write the response
-    logic hold_data;   // level: hold the data of the executed instruction
+    logic hold_data;   // level: hold the data that the response may contain
     logic table_open;  // begin a table read, which sends data blocks
     logic table_next;  // write the next data block
   } response_cmd_t;

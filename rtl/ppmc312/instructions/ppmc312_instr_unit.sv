@@ -51,7 +51,6 @@ module ppmc312_instr_unit
   queue_status_t queue_status;
   enqueue_t enqueue;
   dequeue_t dequeue;
-  result_data_t result_data;
   response_t response;
   response_cmd_t response_cmd;
   response_status_t response_status;
@@ -64,13 +63,13 @@ module ppmc312_instr_unit
   move_status_t move_status;
   table_addr_t read_addr;
   stage_t read_stage;
-  logic
-      drop, close, unit_busy, too_few_pulses, move, plan_busy, elapsed, idle, commit, read_busy, unused_busy;
+  logic drop, close, unit_busy, too_few_pulses, move, plan_busy, elapsed, idle, commit, read_busy;
   logic [6:0] open_acc, open_dec, first;
   logic [7:0] entry_data, plan_kind;
   logic peek;
   logic [1:0] peek_at;
-  logic [31:0] value;
+  logic [7:0] response_code;
+  logic [2:0] response_first;
   response_write_t writer_byte, table_byte;
   logic [BLOCK_BITS:0] writer_size, table_size;
 
@@ -91,7 +90,6 @@ module ppmc312_instr_unit
       .enqueue_o        (enqueue),
       .state_i,
       .table_i          (table_o),
-      .result_data_i    (result_data),
       .elapsed_i        (elapsed),
       .idle_o           (idle),
       .block_o,
@@ -220,39 +218,31 @@ module ppmc312_instr_unit
 
   // ---- responses ----------------------------------------------------------------------------------
 
-  ppmc312_result_data #(
+  ppmc312_response_writer #(
       .Version(Version)
-  ) u_result (
-      .clk_i,
-      .block_i(block_o),
-      .inputs_i,
-      .state_i,
-      .table_i(table_o),
-      .first_i(first),
-      .queue_status_i(queue_status),
-      .hold_i(response_cmd.hold_data),
-      .result_data_o(result_data),
-      .value_o(value)
-  );
-
-  ppmc312_response_writer u_writer (
+  ) u_writer (
       .clk_i,
       .rst_ni,
       .start_i         (response_cmd.write),
       .response_i      (response),
-      .blk_size_i      (block_o.size),
-      .value_i         (value),
-      .sums_i          ({table_o.acc, table_o.dec}),
-      .codes_i         (queue_status.event_count[block_o.par[0][0]]),
+      .done_o          (response_status.written),
+      .hold_i          (response_cmd.hold_data),
+      .block_i         (block_o),
+      .inputs_i,
+      .state_i,
+      .table_i         (table_o),
+      .first_i         (first),
+      .left_i          (setup_status.progress.stages_left),
+      .queue_status_i  (queue_status),
+      .echo_addr_o     (response_status.echo_addr),
+      .echo_i          (blk_data_i),
       .peek_o          (peek),
       .peek_at_o       (peek_at),
-      .code_i          (entry_data),
-      .busy_o          (unused_busy),
-      .done_o          (response_status.written),
-      .echo_addr_o     (response_status.echo_addr),
-      .echo_data_i     (blk_data_i),
+      .entry_i         (entry_data),
       .response_write_o(writer_byte),
-      .size_o          (writer_size)
+      .size_o          (writer_size),
+      .code_o          (response_code),
+      .first_o         (response_first)
   );
 
   ppmc312_table_read u_table_read (
@@ -288,14 +278,14 @@ module ppmc312_instr_unit
         trigger_result: (block_o.source == SrcEvent) ? DoneEvent : DoneOverride,
         size: read_busy ? table_size : writer_size
     };
-    if (response.code == A_EVENT) response_done_o.trigger_result = FailEvent;
-    if (response.code == A_OVERRIDE) response_done_o.trigger_result = FailOverride;
+    if (response.kind == KindFailEvent) response_done_o.trigger_result = FailEvent;
+    if (response.kind == KindFailOverride) response_done_o.trigger_result = FailOverride;
   end
 
   assign host_result_o = '{
           valid: commit && response_done_o.host,
-          code: response.code,
-          first: response.data[0][2:0]
+          code: response_code,
+          first: response_first
       };
 
 endmodule

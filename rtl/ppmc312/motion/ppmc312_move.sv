@@ -67,7 +67,8 @@ module ppmc312_move
   assign result_o.rejected = starts_motion_q && !limited_q && status_i != StatusNor;
   assign start_o = done && starts_motion_q && !limited_q && status_i == StatusNor;
   assign change_o = done && !starts_motion_q;
-  assign result_o.status_byte = ((code == I_MOVE) ? plan_kind_i : 8'h00) | 8'(!gate_i);
+  // The planner returns a kind other than 0 only for a move.
+  assign result_o.status_byte = plan_kind_i | 8'(!gate_i);
   assign profile_req_o = '{
           start: state_q == StPlan,
           ramp: ramp_q,
