@@ -42,7 +42,8 @@ module ppmc312_instr_queue_fv
 
   // ---- command FIFO -------------------------------------------------------------------------------
 
-  logic push, drop, take, own_fire, condition;
+  logic push, drop, take, own_fire, condition, has_place;
+  logic [1:0] take_event;
   logic [3:0] waiting_q, triggered_q;  // entries that wait for their trigger; triggered entries
   // Tracked entry: stored, triggered, armed; most recently taken.
   logic tracked_q, fired_q, armed_q, current_q;
@@ -53,6 +54,7 @@ module ppmc312_instr_queue_fv
   head_t head_q;
 
   assign push = enqueue_i.entry_done && !enqueue_i.to_event;
+  assign has_place = waiting_q < 4'd8 && 5'(waiting_q) + 5'(triggered_q) < 5'd15;
   assign drop = dequeue_i.all || dequeue_i.fifo;
   assign take = dequeue_i.take && !dequeue_i.from_event;
   assign own_fire = dut.fire && tracked_q && !fired_q && older_waiting_q == '0;
@@ -88,12 +90,9 @@ module ppmc312_instr_queue_fv
 
   `FV_ASSUME(entry_is_written, !enqueue_i.entry_done || (!enqueue_i.we && $past(rst_ni && enqueue_i.we)
              && {enqueue_i.to_event, enqueue_i.n, added} == $past({enqueue_i.to_event, enqueue_i.n, added})))
-  `FV_ASSUME(
-      place_in_fifo,
-      !(enqueue_i.we || enqueue_i.entry_done) || enqueue_i.to_event || (waiting_q < 4'd8 && 5'(waiting_q) + 5'(triggered_q) < 5'd15))
-  `FV_ASSUME(
-      takes_triggered,
-      !dequeue_i.take || (dequeue_i.from_event ? queue_status_o.events_triggered[dequeue_i.n] : queue_status_o.fifo_triggered))
+  `FV_ASSUME(place_in_fifo, !(enqueue_i.we || enqueue_i.entry_done) || enqueue_i.to_event || has_place)
+  `FV_ASSUME(takes_triggered, !take || queue_status_o.fifo_triggered)
+  `FV_ASSUME(takes_triggered_event, (take_event & ~queue_status_o.events_triggered) == '0)
 
   head_t [15:0] heads;
   logic [15:0][1:0] trigs;
@@ -101,6 +100,9 @@ module ppmc312_instr_queue_fv
     assign heads[s] = dut.heads[s];
     assign trigs[s] = dut.trigs[s];
   end
+
+  head_t next_head;  // head that is armed or will be armed next, as read from the memory
+  assign next_head = dut.head_valid_q ? {dut.head_q, dut.head_pos_q} : dut.ahead_q;
 
   logic [1:0][4:0] users;  // FIFO entries that wait for event pin [n]
   always_comb begin
@@ -115,17 +117,15 @@ module ppmc312_instr_queue_fv
   `FV_ASSERT(lemma_counts,
              dut.written_q - dut.armed_q == waiting_q && dut.armed_q - dut.done_q == triggered_q)
   `FV_ASSERT(lemma_places, waiting_q <= 4'd8 && 5'(waiting_q) + 5'(triggered_q) <= 5'd15)
-  `FV_ASSERT(
-      lemma_older,
-      !tracked_q || (fired_q ? older_q < triggered_q : older_q == older_waiting_q + triggered_q && older_waiting_q < waiting_q))
+  `FV_ASSERT(lemma_older, !(tracked_q && fired_q) || older_q < triggered_q)
+  `FV_ASSERT(lemma_older_waiting, !tracked_q || fired_q || older_q == older_waiting_q + triggered_q)
+  `FV_ASSERT(lemma_waiting, !tracked_q || fired_q || older_waiting_q < waiting_q)
   `FV_ASSERT(lemma_slot, !tracked_q || slot_q == dut.done_q + older_q)
   `FV_ASSERT(lemma_slot_taken, !current_q || (slot_q == dut.taken_q && slot_q + 4'd1 == dut.done_q))
   `FV_ASSERT(lemma_exclusive, !(tracked_q && current_q))
   `FV_ASSERT(lemma_stored, !tracked_q || (heads[slot_q] == head_q && trigs[slot_q] == head_q.trig))
   `FV_ASSERT(lemma_armed, !tracked_q || fired_q || older_waiting_q != '0 || dut.head_valid_q == armed_q)
-  `FV_ASSERT(
-      lemma_head,
-      waiting_q == '0 || (dut.head_valid_q ? {dut.head_q, dut.head_pos_q} : dut.ahead_q) == heads[dut.armed_q])
+  `FV_ASSERT(lemma_head, waiting_q == '0 || next_head == heads[dut.armed_q])
   `FV_ASSERT(lemma_valid, !dut.head_valid_q || waiting_q != '0)
   `FV_ASSERT(lemma_trig, !tracked_q || older_q != '0 || age_q < 1 || dut.done_word_q == head_q.trig)
   for (genvar n = 0; n < 2; n++) begin : g_users
@@ -152,12 +152,16 @@ module ppmc312_instr_queue_fv
 
   // ---- event buffers ------------------------------------------------------------------------------
 
-  logic [1:0] add, take_event;
+  logic [1:0] add;
   logic [1:0][2:0] count_q;  // entries
   logic [1:0][1:0] next_q;  // entry that the next edge executes
   logic [1:0] remembered_q;  // an edge has not been processed yet
   logic taken_event_q, taken_n_q;  // the last entry was taken from event buffer taken_n_q
   logic [1:0] taken_at_q;
+  logic [8:0] taken_address, free_address;
+
+  assign taken_address = {2'b10, taken_n_q, taken_at_q, fetch_addr_i};
+  assign free_address  = {2'b10, enqueue_i.n, count_q[enqueue_i.n][1:0], enqueue_i.addr};
 
   for (genvar n = 0; n < 2; n++) begin : g_event
     assign add[n] = enqueue_i.entry_done && enqueue_i.to_event && enqueue_i.n == 1'(n);
@@ -197,12 +201,8 @@ module ppmc312_instr_queue_fv
 
   `FV_ASSERT(lemma_taken,
              !taken_event_q || (dut.taken_n_q == taken_n_q && dut.taken_entry_q[taken_n_q] == taken_at_q))
-  `FV_ASSERT(
-      fetches_taken_event,
-      !(taken_event_q && fetch_event_i && !peek_i) || dut.raddr == {2'b10, taken_n_q, taken_at_q, fetch_addr_i})
-  `FV_ASSERT(
-      writes_free_place,
-      !(enqueue_i.we && enqueue_i.to_event) || {1'b0, dut.waddr} == {3'b010, enqueue_i.n, count_q[enqueue_i.n][1:0], enqueue_i.addr})
+  `FV_ASSERT(fetches_taken_event, !(taken_event_q && fetch_event_i && !peek_i) || dut.raddr == taken_address)
+  `FV_ASSERT(writes_free_place, !(enqueue_i.we && enqueue_i.to_event) || dut.waddr == free_address)
   `FV_ASSERT(peeks, !peek_i || dut.raddr == {2'b10, peek_n_i, peek_at_i, 4'd2})
   `FV_COVER(seen_cycle, take_event[1] && count_q[1] == 3'd2 && next_q[1] == '0 && $past(next_q[1]) == 2'd1)
 

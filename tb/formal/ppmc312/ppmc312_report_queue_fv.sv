@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_report_queue_fv: proves that no report is lost or invented, their order, and the bytes of each report.
+// ppmc312_report_queue_fv: proves that no report is lost or invented, the order of the reports, and their
+// bytes.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -126,9 +127,8 @@ module ppmc312_report_queue_fv
 
   `FV_ASSERT(response_status, response_queue_o == {full_q, full_q && host_q[0], waiting_q})
   `FV_ASSERT(reads_entry_of_the_response, !full_q || dut.u_answers.raddr_i == {bank_q[0], rd_addr_i})
-  `FV_ASSERT(
-      writes_other_entry,
-      !(full_q && response_write_i.we) || !dut.u_answers.we_i || dut.u_answers.waddr_i[BLOCK_BITS] != bank_q[0])
+  `FV_ASSERT(writes_other_entry,
+             !(full_q && dut.u_answers.we_i) || dut.u_answers.waddr_i[BLOCK_BITS] != bank_q[0])
   `FV_ASSERT(lemma_entry, serial_i || !waiting_q || bank_q[1] == !dut.bank_q)
   `FV_ASSERT(lemma_size, !waiting_q || dut.pending_size_q == size_q[1] && dut.pending_host_q == host_q[1])
 
@@ -186,17 +186,20 @@ module ppmc312_report_queue_fv
     report_bytes[1] = 8'(size);
   end
 
-  `FV_ASSERT(
-      size_of_report,
-      !loaded_q || rd_size_o == (class_q == 4'd2 ? size_q[0] : (BLOCK_BITS + 1)'(size) + (BLOCK_BITS + 1)'(2)))
-  `FV_ASSERT(bytes_of_report, !(loaded_q && $past(rst_ni && loaded_q)
-             && class_q != 4'd2 && (BLOCK_BITS + 1)'($past(rd_addr_i, 2)
-             ) < rd_size_o) || rd_data_o == report_bytes[3'($past(rd_addr_i, 2))])
+  logic [1:0][BLOCK_BITS-1:0] addr_q;  // rd_addr_i, delayed by one and two cycles
+  logic loaded_dly_q, reads_byte;  // reads_byte: rd_data_o is a byte of a report of another class than 2
+  always_ff @(posedge clk_i) {addr_q, loaded_dly_q} <= {addr_q[0], rd_addr_i, rst_ni && loaded_q};
+  assign reads_byte = loaded_q && loaded_dly_q && class_q != 4'd2 && 6'(addr_q[1]) < rd_size_o;
+
+  `FV_ASSERT(size_of_report, !loaded_q || class_q == 4'd2 || rd_size_o == 6'(size) + 6'd2)
+  `FV_ASSERT(size_of_response, !(loaded_q && class_q == 4'd2) || rd_size_o == size_q[0])
+  `FV_ASSERT(bytes_of_report, !reads_byte || rd_data_o == report_bytes[addr_q[1][2:0]])
   `FV_ASSERT(bytes_of_response, !(loaded_q && class_q == 4'd2) || rd_data_o == dut.u_answers.rdata_o)
   `FV_ASSERT(poll_first_class, poll_result_o.report_class == first)
-  `FV_ASSERT(
-      poll_contents,
-      !serial_i || ((first != 4'd2 || poll_result_o.trigger_result == trigger_result_q) && (first != 4'd5 || poll_result_o.cause == cause_q) && (first != 4'd6 || {poll_result_o.discarded, poll_result_o.data} == aux_q[0])))
+  `FV_ASSERT(poll_trigger, !(serial_i && first == 4'd2) || poll_result_o.trigger_result == trigger_result_q)
+  `FV_ASSERT(poll_cause, !(serial_i && first == 4'd5) || poll_result_o.cause == cause_q)
+  `FV_ASSERT(poll_data,
+             !(serial_i && first == 4'd6) || {poll_result_o.discarded, poll_result_o.data} == aux_q[0])
   `FV_COVER(seen_replaced_data, loaded_q && class_q == 4'd6 && aux_q[0][8])
   `FV_COVER(seen_second_response, done && class_q == 4'd2 && waiting_q && loaded_q && !serial_i)
   `FV_COVER(seen_discarded_stop, discarded_o.valid && discarded_o.code == 2'd3)
