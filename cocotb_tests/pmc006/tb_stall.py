@@ -130,6 +130,28 @@ async def p006_the_count_of_low_samples_restarts(dut: Any) -> None:
     assert not await host.status() & STALL and await host.ask("I") == 0 and await host.ask("X") == stalled_at
 
 
+@directed("P006-STL-02", "P006-CMD-37")
+async def p006_low_samples_after_a_cleared_stall(dut: Any) -> None:
+    """If the host clears each stall before the next sample, each further low sample is again a stall.
+
+    The number of samples exceeds the range of a counter of 7 bits.
+    """
+    host = await constant_speed_host(dut)
+    await host.ok(Z=256, Y=1)
+    await run(host)
+    await cruise(host, 1_000_000 / 3000)
+    await samples(host, *[0] * 63)
+    for number in range(64, 140):
+        await samples(host, 0)
+        assert await host.status() & STALL, f"no stall at low sample {number}"
+        await host.ask("p")
+    await samples(host, 256)
+    await samples(host, *[0] * 63)
+    assert not await host.status() & STALL
+    await samples(host, 0)
+    assert await host.status() & STALL and await host.ask("I") == 0
+
+
 @directed("P006-STL-03", "P006-STL-04", "P006-STA-03", "P006-STA-10", "P006-CMD-37", "P006-IO-01")
 async def p006_what_a_stall_does(dut: Any) -> None:
     host = await cruising(dut, y=5, length=2)

@@ -63,7 +63,7 @@ module ppmc_bridge_rx
     short_q      <= index_q[8:1] == '0;
     crc_bad_q    <= crc_q != '0;
     open_q       <= index_q != Empty || escaped_q;
-    quiet_over_q <= quiet_q == '0;
+    quiet_over_q <= quiet_q == '0 && !valid_q;  // a character restarts quiet_q
   end
 
   always_comb begin

@@ -47,7 +47,7 @@ module pmc006_stall
   always_ff @(posedge clk_i) begin
     if (sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};
     if (!busy_i) count_q <= '0;  // each motion begins with a count of 0
-    else if (sample_q) count_q <= low_counted ? count_next[6:0] : '0;
+    else if (sample_q) count_q <= low_counted ? count_next[6:0] | {7{count_next[7]}} : '0;  // saturates
   end
 
   logic unused_config;

@@ -47,6 +47,7 @@ module ppmc_uart_bridge_fv (
 
   // These assertions are assumptions in the proofs of ppmc_bridge_exec, _wait, _rx and _msg.
   `FV_ASSERT(start_in_idle, !((dut.start || dut.resend) && active_o) && !(dut.start && dut.resend))
+  `FV_ASSERT(busy_after_request, !active_o || $past(rst_ni && (active_o || dut.request)))
   `FV_ASSERT(answer_of_something, !dut.resend || begun_q)
   `FV_ASSERT(ms_apart, !dut.ms_q || since_ms_q >= 3'(MsCycles - 2))
   `FV_ASSERT(ms_within, since_ms_q < 3'(MsCycles))

@@ -71,6 +71,32 @@ module ppmc_command_fv
   `FV_ASSERT(p104_opr_12_no_start_in_a_motion, !(act_o.start && busy_i))
   `FV_ASSERT(meaning_is_of_the_byte, !(take_o && command_i) || dut.dec_q == decoded_byte_i)
   `FV_ASSERT(p104_sta_04_status_moves_with_a_byte, $past(take_o || !rst_ni) || status_o == $past(status_o))
+  // The converse: no available byte is left, and each accepted byte has its effect.
+  logic is_stop;  // the byte is a stop command
+  assign is_stop = command_i && dut.dec_q.kind inside {CmdHalt, CmdDecel};
+  `FV_ASSERT(p104_hsk_03_accepts, take_o == (ready_i && open_i && (!stops_only_i || is_stop)))
+  `FV_ASSERT(no_action_without_a_byte, take_o || act_o == '0)
+
+  logic [31:0] params_q;  // the last four bytes that were accepted as data
+  logic [7:0] command_q;  // the last command that was accepted
+  logic known_q;  // a command has been accepted
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) known_q <= 1'b0;
+    else if (take_o && command_i) known_q <= 1'b1;
+    if (take_o && command_i) command_q <= byte_i;
+    if (!rst_ni) params_q <= '0;
+    else if (take_o && !command_i) params_q <= {data_i, params_q[31:8]};
+  end
+
+  `FV_ASSERT(code_held, !known_q || code_held_o == command_q)
+  `FV_ASSERT(params_held, params_held_o == params_q)
+  `FV_ASSERT(code_of_the_action, code_o == (command_i ? byte_i : code_held_o))
+  `FV_ASSERT(params_of_the_action, params_o == {data_i, params_q[31:8]})
+  `FV_ASSERT(error_or_action, !(take_o && act_o != '0) || !dut.parser.error)
+  `FV_ASSERT(p104_sta_04_missing,
+             !(take_o && command_i && !dut.parser.error) || dut.parser.number == decoded_byte_i.params)
+  `FV_ASSERT(status_after_a_byte, !$past(rst_ni && take_o) || status_o == $past
+             ({dut.parser.error, dut.parser.number}))
   `FV_COVER(seen_start_with_three, act_o.start && !command_i)
   `FV_COVER(seen_halt, act_o.halt)
 
