@@ -213,7 +213,8 @@ def cocotb_items(
 ) -> list[Any]:
     """Return a pytest.param for each test of `package`'s modules and each configuration that the test names.
 
-    Raises ValueError if a module has no cocotb test or two tests share a name.
+    Raises ValueError if a module has no cocotb test, two tests share a name, or a test neither runs with
+    JITTER=1 nor states why it does not.
 
     Args:
         shared: True if the tests of a module run in one process for each build. Each test must then begin

@@ -18,6 +18,7 @@ from cocotb_tests.harness.project import ProjectError, relative
 MEMORIES = {
     "ppmc312_cosine_rom": "rom",
     "ppmc312_instr_rom": "rom",
+    "ppmc312_response_rom": "rom",
     "ppmc312_serial_code_rom": "rom",
     "pmc006_sine_rom": "rom",
     "pmc006_base_rom": "rom",

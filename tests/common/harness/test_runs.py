@@ -18,7 +18,7 @@ from cocotb_tests.harness.variants import MUTANT
 
 ITEMS: dict[str, Item] = {
     param.values[0].test: replace(param.values[0], tag="own", uncompared="it has no part")
-    for param in cocotb_items("cocotb_tests.common", "tb_runs", part=Part("x", {}))
+    for param in cocotb_items("cocotb_tests.common", "tb_runs", part=Part("x", {}), exact="without a part")
 }
 SOURCE = """module runs_inner (input wire logic clk, output logic q);
   logic [3:0] count = 4'd0;

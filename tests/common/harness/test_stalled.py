@@ -13,7 +13,7 @@ from cocotb_tests.harness.blocks import area_design
 from cocotb_tests.harness.build import build
 from cocotb_tests.harness.simulate import FAILED, Job, tried
 
-FOUND = cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}))
+FOUND = cocotb_items("cocotb_tests.common", "tb_stalled", part=Part("x", {}), exact="without a part")
 ITEMS = {param.values[0].test: param.values[0] for param in FOUND}
 
 
