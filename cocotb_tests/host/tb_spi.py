@@ -213,7 +213,7 @@ async def spi_driver(dut):
                 await host.wait(1)
                 delay += 1
                 assert delay < 9, f"miso_oe does not follow cs_n = {level}"
-            same("lamp", host.unit.get("active_o"), 1 - level)
+            same("active_o", host.unit.get("active_o"), 1 - level)
             delays[level].add(delay)
             await host.wait(9)
     for level, found in delays.items():
