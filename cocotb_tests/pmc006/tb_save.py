@@ -196,15 +196,71 @@ async def answering(host: Host) -> int:
     raise AssertionError("no reply")
 
 
+TORN = bytes([*SAVED[:8], SAVED[8] ^ 1, *SAVED[9:]])
+"""SAVED with a wrong checksum."""
+COPY_FIRST, PAGE_FIRST = [COPY, 0], [0, COPY]
+
+
+@directed("P006-EEP-10", "P006-BAD-14", "P006-BAD-15")
+async def p006_valid_block_is_replaced_last(dut: Any) -> None:
+    """While the page may be invalid and its copy is valid, a save writes the page first; otherwise the copy.
+
+    The page may be invalid after a boot from the copy, or after a save that failed in the page.
+    """
+    host = await booted(dut, image(SAVED), 120)
+
+    async def save(expected: list[int], job: str = "t") -> None:
+        before = len(written(host))
+        assert await host.ask(job) == 1
+        await host.ms(6 if job == "t" else 45)
+        assert [address for address, _ in written(host)[before:]] == expected
+
+    async def fail(after: int) -> None:
+        before = len(written(host))
+        assert await host.ask("t") == 1
+        while len(written(host)) < before + after:
+            await host.wait_us(20)
+        host.eeprom.missing(True)
+        await host.ms(14)
+        assert await host.ask("V") == 2
+        host.eeprom.missing(False)
+
+    await save(COPY_FIRST)
+    await fail(after=0)
+    await save(COPY_FIRST)
+    await fail(after=2)
+    await save([MARK, *range(PROGRAM, SUM, PAGE), SUM], "B")
+    await save(PAGE_FIRST)
+    await save(COPY_FIRST)
+    await fail(after=2)
+    await fail(after=1)
+    await fail(after=2)
+    await save(COPY_FIRST)
+    for block, copy, expected in (
+        (SAVED, TORN, COPY_FIRST),
+        (TORN, SAVED, PAGE_FIRST),
+        (TORN, TORN, COPY_FIRST),
+    ):
+        host = await booted(dut, image(block) + bytes(0x1D) + copy, 0xFF if block == copy else 120)
+        await save(expected)
+        await save(COPY_FIRST)
+    host = await booted(dut, image(TORN) + bytes(0x1D) + SAVED, 120)
+    await host.pins(fset_n=0)
+    await host.wait_us(FSET_US + 6_000)
+    await host.pins(fset_n=1)
+    assert written(host) == [(0, FACTORY_PAGE), (COPY, FACTORY_PAGE)]
+
+
+@cocotb.parametrize(page_valid=[True, False])
 @directed("P006-EEP-10", "P006-BAD-24", "P006-BAD-14")
-async def p006_reset_while_settings_are_saved(dut: Any) -> None:
+async def p006_reset_while_settings_are_saved(dut: Any, page_valid: bool) -> None:
     """After a reset at any time during a save, the next boot restores either all old or all new settings.
 
     This test resets the complete part at some times; tests/pmc006/model/test_cuts.py tests every edge.
     """
     seen: list[bool] = []
     for number in range(PLACES):
-        host = await booted(dut, image(SAVED) + bytes(0x1D) + SAVED, 120)
+        host = await booted(dut, image(SAVED if page_valid else TORN) + bytes(0x1D) + SAVED, 120)
         await host.ok(**{name: value for name, value in NEW.items() if name != "w"})
         assert await host.ask("w", 5) == 5
         await host.send_frame("t")

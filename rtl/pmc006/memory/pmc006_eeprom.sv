@@ -76,8 +76,8 @@ module pmc006_eeprom
   (* fsm_encoding = "none" *)
   state_e state_q;
   logic tick, first, done, fail, nack;
-  logic boot_q, restore_q, poll_q, read_q, burn_q, mark_q, copy_q, factory_q, fail_q, retry_q;
-  logic last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout, byte_sent, byte_received;
+  logic boot_q, restore_q, poll_q, read_q, burn_q, first_q, copy_q, factory_q, fail_q, retry_q;
+  logic page_first_q, last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout, byte_sent, byte_received;
   logic mismatch, clear_sum, abort, try_copy;
   logic [1:0] prefetch_valid_q;
   logic [2:0] phase_q;
@@ -139,7 +139,7 @@ module pmc006_eeprom
       .received_i     (received),
       .clear_i        (clear_sum),
       .burn_i         (burn_q),
-      .mark_i         (mark_q),
+      .mark_i         (first_q),
       .prefetch_i     (prefetch_q),
       .factory_i      (factory_q),
       .settings_i,
@@ -151,7 +151,7 @@ module pmc006_eeprom
   );
 
   assign clear_sum = state_q == StSettle || state_q == StIdle ||
-      (done && state_q == StStop && !retry_q && (read_q || (poll_q && (mark_q || copy_q))));
+      (done && state_q == StStop && !retry_q && (read_q || (poll_q && first_q)));
 
   assign byte_addr_o = addr_q;
   assign we_o = byte_received || (state_q == StWipe && program_bad_q);
@@ -207,8 +207,9 @@ module pmc006_eeprom
       poll_q        <= 1'b0;
       read_q        <= 1'b0;
       burn_q        <= 1'b0;
-      mark_q        <= 1'b0;
+      first_q       <= 1'b0;
       copy_q        <= 1'b0;
+      page_first_q  <= 1'b0;
       factory_q     <= 1'b0;
       fail_q        <= 1'b0;
       retry_q       <= 1'b0;
@@ -261,11 +262,12 @@ module pmc006_eeprom
           if (!retry_q) begin
             poll_q <= !poll_q && !read_q;
             if (poll_q) begin
+              if (!burn_q) page_first_q <= first_q && copy_q;
               if (boot_q && !factory_q) read_q <= 1'b1;
-              else if (mark_q || copy_q) begin
-                mark_q <= 1'b0;
-                copy_q <= 1'b0;
-                addr_q <= mark_q ? ProgramAddr : '0;
+              else if (first_q) begin
+                first_q <= 1'b0;
+                copy_q  <= !burn_q && !copy_q;
+                addr_q  <= burn_q ? ProgramAddr : '0;
               end else if (!burn_q || addr_q > MarkAddr) state_q <= StSettle;
             end
             if (read_q && (addr_q > MarkAddr || copy_q)) begin
@@ -300,10 +302,13 @@ module pmc006_eeprom
           addr_q    <= '0;
           retry_q   <= 1'b0;
           poll_q    <= 1'b0;
-          mark_q    <= 1'b0;
+          first_q   <= 1'b0;
           copy_q    <= 1'b0;
           store_q   <= 1'b0;
-          if (boot_q && !factory_q) fail_q <= 1'b0;
+          if (boot_q && !factory_q) begin
+            fail_q       <= 1'b0;
+            page_first_q <= copy_q && !page_bad_q && !restore_q;
+          end
           if (try_copy) begin
             state_q    <= StStart;
             boot_q     <= 1'b1;
@@ -316,8 +321,8 @@ module pmc006_eeprom
             restore_q <= 1'b0;
             factory_q <= restore_q;
             burn_q    <= burn_i && !restore_q;
-            mark_q    <= burn_i && !restore_q;
-            copy_q    <= !burn_i || restore_q;
+            first_q   <= 1'b1;
+            copy_q    <= (!burn_i || restore_q) && !page_first_q;
             fail_q    <= 1'b0;
             if (burn_i && !restore_q) addr_q <= MarkAddr;
           end

@@ -10,6 +10,7 @@ from functools import cache
 import pytest
 
 from cocotb_tests.harness import verifies
+from cocotb_tests.pmc006.i2c_bus import I2cBus
 from openppmc.model.carrier.eeprom import Eeprom24C32
 from openppmc.model.pmc006.line import command
 from openppmc.model.pmc006.part import Pmc006
@@ -21,19 +22,19 @@ RELEASES = {"together": ((1, 1),), "scl first": ((1, 0), (1, 1)), "sda first": (
 
 
 @cache
-def lines(page: bytes) -> tuple[tuple[int, int], ...]:
+def lines(page: bytes, content: bytes = b"") -> tuple[tuple[int, int], ...]:
     """Return the successive levels that the part drives on both lines while it saves the settings of
-    `page`.
+    `page`, after a boot with this content of the EEPROM.
     """
-    part = Pmc006(CLK_HZ, baud=BAUD, straps={"sda_i": 0})
-    part.run_until(CLK_HZ // 500)
+    part = Pmc006(CLK_HZ, baud=BAUD)
+    I2cBus(part, Eeprom24C32(CLK_HZ, content, write_us=0))
+    part.run_until(CLK_HZ // 20)
     values = values_of(page)
     assert values is not None
     part.context.settings.load(values)
     since, bit = part.now, CLK_HZ / BAUD
     for number, byte in enumerate(command(values["addr"], "t")):
         part.on_char(since + 1 + round((10 * number + 9.5) * bit), byte)
-    # SDA is held low from outside, so each byte is acknowledged.
     part.run_until(since + CLK_HZ // 200)
     levels, found = {"scl_oe": 0, "sda_oe": 0}, []
     edges = sorted((t, pin, level) for pin in levels for t, level in part.log.of(pin, since))
@@ -87,21 +88,22 @@ def mixes(old: bytes, new: bytes) -> bool:
 def test_a_cut_at_any_edge_of_the_lines(seed: int, release: str) -> None:
     """If a save is cut off at any edge of the lines, the old or the new settings remain.
 
-    Before the save, the EEPROM has a copy, no copy, or a copy that is already damaged.
+    Before the save, the EEPROM has a page without a copy, or one of the two is already damaged.
     """
     rng = random.Random(seed)
     old = new = some(rng)
     while old == new or mixes(old, new):
         new = some(rng)
-    changes = lines(new)
-    assert len(changes) > 1200
+    torn = new[:9] + old[9:]
     starts = {
         "copy": old.ljust(COPY, b"\xff") + old,
         "no copy": old,
-        "torn copy": old.ljust(COPY, b"\xff") + new[:9] + old[9:],
+        "torn copy": old.ljust(COPY, b"\xff") + torn,
+        "torn page": torn.ljust(COPY, b"\xff") + old,
     }
     for name, content in starts.items():
-        seen = []
+        changes, seen = lines(new, content), []
+        assert len(changes) > 1200
         for cut, memory in enumerate(cuts(content, changes, release)):
             values = judged(memory)
             assert values in (values_of(old), values_of(new)), f"{name}, {cut} changes: {values}"

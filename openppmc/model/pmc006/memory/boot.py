@@ -118,6 +118,8 @@ class Boot:
             self._copied, self._whole = True, False
             self._engine.run(t + 1, "boot", self._copy_read_sequence(), self._process_program)
         else:
+            if not self._restoring:
+                self._engine.page_valid = not (self._loaded and self._copied)
             self._ended(t, self._valid)
 
     def _at(self, t: int, action: Callable[[int], None]) -> None:

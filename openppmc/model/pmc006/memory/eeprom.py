@@ -188,10 +188,7 @@ class Bus:
 
 PROGRAM, SUM, MARK = 0x0020, 0x0340, 0x0342
 COPY = 0x0360
-"""Address of the copy of the parameter page.
-
-The copy is written first. Therefore, after a power cut either the page or the copy is valid.
-"""
+"""Address of the copy of the parameter page."""
 SIZE = SUM - PROGRAM
 COMPLETE = 0x5A
 POLL_MS = 10
@@ -205,6 +202,8 @@ class Engine:
 
     Attributes:
         failed: True if the last job other than BOOT ended because the device did not respond.
+        page_valid: False if the parameter page may be invalid and its copy is valid. Normally the copy is written
+            first; in this case the page is. Therefore, after a power cut at any time one of the two is valid.
     """
 
     def __init__(self, context: ExecutionContext, bus: Bus, device: int) -> None:
@@ -212,6 +211,7 @@ class Engine:
         self._kind: str | None = None
         self._restore = False
         self.failed = False
+        self.page_valid = True
 
     @property
     def state(self) -> int:
@@ -279,17 +279,21 @@ class Engine:
             self._restore = True
 
     def _save(self) -> BusSequence[None]:
-        """Save both pages (P006-EEP-10).
-
-        Each register is saved with its value at the time when it is sent.
-        """
-        for place in (COPY, 0):
-            yield from self._page(place, PAGE, sent(self._context.settings).__next__)
+        """Save the registers (P006-EEP-10). Each is saved with its value at the time when it is sent."""
+        return self._both(lambda: sent(self._context.settings))
 
     def fact(self) -> BusSequence[None]:
         """Write the factory page (P006-EEP-22)."""
-        for place in (COPY, 0):
-            yield from self._page(place, PAGE, iter(FACTORY_PAGE).__next__)
+        return self._both(lambda: iter(FACTORY_PAGE))
+
+    def _both(self, content: Callable[[], Iterator[int]]) -> BusSequence[None]:
+        """Write the parameter page and its copy."""
+        for place in (COPY, 0) if self.page_valid else (0, COPY):
+            if place == 0:
+                self.page_valid = False
+            yield from self._page(place, PAGE, content().__next__)
+            if place == 0:
+                self.page_valid = True
 
     def _burn(self) -> BusSequence[None]:
         """Write the program. It becomes valid only with its last byte (P006-EEP-11)."""
