@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from ...model.ppmc312.codes import SHAPES
 from ..common.mnemonics import CommandDecoder
 
 OV, DIR, IDX, LE, FO = 0x04, 0x40, 0x10, 0x10, 0x08
 CLOCKS = ("8 MHz", "1 MHz", "500 kHz", "250 kHz", "62.5 kHz", "15.6 kHz", "EXTCK", "EXTCK falling")
 TRIGGERS = ("at position", "on event 0", "at position", "on event 1")
-SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 CAUSES = {
     0x80: "alarm",
     0x40: "all pulses made",

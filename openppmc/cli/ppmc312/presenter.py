@@ -28,10 +28,9 @@ from ...host.ppmc312.answers import (
     Stopped,
 )
 from ...host.ppmc312.core import TableRead
-from ...host.ppmc312.motion import SHAPES
 from ...host.ppmc312.part import Axis
 from ...host.ppmc312.profile import CAPABILITIES, Setup
-from ...model.ppmc312.codes import Code, Source
+from ...model.ppmc312.codes import SHAPES, Code, Source
 from ...model.ppmc312.stages import Plan, constant, ramped
 from ..common import show
 from ..common.options import Direction

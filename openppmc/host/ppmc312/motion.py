@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
+from ...model.ppmc312.codes import SHAPES
 from ...model.ppmc312.codes import Cause as Bit
 from .. import motion as homing
 from .. import part as device
@@ -25,7 +26,6 @@ _CAUSES = {
     Bit.ORIGIN: Cause.ORIGIN,
     Bit.ALARM: Cause.ALARM,
 }
-SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
 
 
 class Transport(device.Transport, Protocol):

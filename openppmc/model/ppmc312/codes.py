@@ -114,6 +114,9 @@ class Cause(IntEnum):
     ALARM = 0x80
 
 
+SHAPES = {0x00: "trapezoid", 0x10: "triangle", 0x20: "deceleration only", 0x40: "acceleration only"}
+"""Shape of a motion, by the second byte after the code of an answer (docs/ppmc312/README.md, 9.1)."""
+
 # Causes of an immediate end, highest priority first, for causes in the same cycle (P312-MOT-34).
 IMMEDIATE = (Cause.ALARM, Cause.LIMIT, Cause.ORIGIN, Cause.STOP)
 
