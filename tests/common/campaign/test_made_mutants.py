@@ -59,6 +59,11 @@ def test_what_is_changed() -> None:
     }
 
 
+def test_the_slice_of_a_stream_is_a_width() -> None:
+    text = "module m (input a, b, output logic [15:0] q);\n  assign q = {<<8{a & b}};\nendmodule\n"
+    assert [fault.what for fault in faults(text)] == ["& replaced by |"]
+
+
 def test_a_copy_holds_all_and_keeps_lines() -> None:
     """The copy of a file contains every mutant with its number, and has the same number of lines as
     the file.

@@ -113,6 +113,8 @@ class Finder:
             self._add(node.predicate, f"!({self._of(node.predicate)})", "condition inverted")
         elif name == "MultipleConcatenationExpression":
             skipped.append(node.expression)
+        elif name == "StreamingConcatenationExpression":
+            skipped.append(node.sliceSize)
         elif name == "CastExpression":
             skipped.append(node.left)
         elif name == "StandardCaseItem":
