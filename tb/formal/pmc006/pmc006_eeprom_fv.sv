@@ -2,11 +2,8 @@
 // pmc006_eeprom_fv: compares the bus commands of pmc006_eeprom with a model of the EEPROM that survives
 // resets of the part. Resets can occur in every cycle.
 `include "ppmc_fv.svh"
+`include "pmc006/lemma.svh"
 `default_nettype none
-
-`define LEMMA(label_, prop_) \
-  `FV_ASSERT(label_, prop_) \
-  first_``label_ : assume property (@(posedge clk_i) disable iff (!rst_ni) (later_q || (prop_)));
 
 module pmc006_eeprom_fv
   import pmc006_pkg::*;
@@ -38,20 +35,16 @@ module pmc006_eeprom_fv
 
   `FV_RESET
 
-  // The run begins with a reset of the block, or in any state in which the lemmas hold; they hold in reset. A
-  // boot takes 800 cycles, so a search from reset finds neither a fault of a save nor a cover.
-  logic rst_part_n, later_q, booted_q;  // booted_q: the run began with a reset
-  assign rst_part_n = power_i;
-  always_ff @(posedge clk_i) begin
-    later_q  <= rst_ni;
-    booted_q <= rst_ni && (later_q ? booted_q : !rst_part_n);
-  end
+  `FV_ANY_START(power_i)
+
+  logic booted_q;  // the run began with a reset
+  always_ff @(posedge clk_i) booted_q <= rst_ni && (later_q ? booted_q : !rst_dut_n);
 
   pmc006_eeprom #(
       .ClkHz(2_000),
       .I2cHz(100)
   ) dut (
-      .rst_ni(rst_part_n),
+      .rst_ni(rst_dut_n),
       .*
   );
 
@@ -127,8 +120,8 @@ module pmc006_eeprom_fv
     end
   end
 
-  always_ff @(posedge clk_i or negedge rst_part_n)
-    if (!rst_part_n) {listen_q, begun_q, written_q} <= '0;
+  always_ff @(posedge clk_i or negedge rst_dut_n)
+    if (!rst_dut_n) {listen_q, begun_q, written_q} <= '0;
     else if (dut.fail) {listen_q, begun_q, written_q} <= '0;
     else begin
       if (write_byte) {begun_q, written_q} <= 2'b10;
@@ -195,8 +188,8 @@ module pmc006_eeprom_fv
 
   assign content = save_q ? image(settings_i, control_i) : image(SETTINGS_RESET, CONTROL_RESET);
 
-  always_ff @(posedge clk_i or negedge rst_part_n)
-    if (!rst_part_n) {save_q, burn_q, restore_q, writes_q, rest_q, late_q} <= '0;
+  always_ff @(posedge clk_i or negedge rst_dut_n)
+    if (!rst_dut_n) {save_q, burn_q, restore_q, writes_q, rest_q, late_q} <= '0;
     else begin
       if (state == StSettle) {save_q, burn_q, writes_q} <= '0;
       if (state == StSettle && !dut.restore_q) restore_q <= 1'b0;
@@ -211,11 +204,11 @@ module pmc006_eeprom_fv
     end
 
   always_ff @(posedge clk_i) begin
-    blind_q  <= rst_part_n && !both_ok && (blind_q || (boot_o && (dut.abort || restore_i)));
+    blind_q  <= rst_dut_n && !both_ok && (blind_q || (boot_o && (dut.abort || restore_i)));
     had_ok_q <= rst_ni && (any_ok || (had_ok_q && !blind_q));
   end
 
-  `LEMMA(p006_eep_10_never_neither, any_ok || !had_ok_q || blind_q)
+  `FV_LEMMA(p006_eep_10_never_neither, any_ok || !had_ok_q || blind_q)
   `FV_ASSERT(
       p006_eep_10_bytes,
       !(write_byte && addr_q[9:5] inside {PageBlock, CopyBlock}) || dut.out == ((addr_q[4:0] == '1) ? sum[7:0] : (addr_q[0] && addr_q[4:0] >= 5'h0c) ? high_q : content[addr_q[4:0]]))
@@ -231,17 +224,17 @@ module pmc006_eeprom_fv
   `FV_ASSERT(p006_eep_11_only_a_burn, !(write_byte && addr_q[9:5] inside {[5'd1 : 5'd26]}) || burn_q)
   `FV_ASSERT(p006_eep_22_blocks,
              !(write_byte && !burn_q) || (addr_q[9:5] inside {PageBlock, CopyBlock} && (save_q || restore_q)))
-  `LEMMA(p006_eep_22_one_job, !(save_q && burn_q))
+  `FV_LEMMA(p006_eep_22_one_job, !(save_q && burn_q))
   `FV_ASSERT(p006_bad_15, !autostart_o || (program_ok_q && control_i.offline && !restore_q))
   `FV_ASSERT(p006_bad_14_boot_writes_nothing, !(write_byte && boot_o && !restore_q))
   `FV_ASSERT(p006_eep_10_block_start, !(write_byte && !begun_q) || addr_q[4:0] == '0 || addr_q == MarkAddr)
   `FV_ASSERT(p006_eep_10_within_a_page, !(write_byte && begun_q) || addr_q[4:0] != '0)
-  `LEMMA(lemma_burning, burning_o == burn_q)
-  `LEMMA(p006_bad_13_writes_of_a_job, writes_q <= (burn_q ? 5'd27 : 5'd2))
-  `LEMMA(p006_bad_13_poll_ends, late_q <= 3'd3)
-  `LEMMA(p006_bad_13_rest_ends, rest_q <= 11'd1106)
-  `FV_ASSERT(command_stable, !$past(rst_part_n && dut.cmd != CmdNone && !dut.done && !dut.fail)
-             || !rst_part_n || dut.cmd == $past(dut.cmd))
+  `FV_LEMMA(lemma_burning, burning_o == burn_q)
+  `FV_LEMMA(p006_bad_13_writes_of_a_job, writes_q <= (burn_q ? 5'd27 : 5'd2))
+  `FV_LEMMA(p006_bad_13_poll_ends, late_q <= 3'd3)
+  `FV_LEMMA(p006_bad_13_rest_ends, rest_q <= 11'd1106)
+  `FV_ASSERT(command_stable, !$past(rst_dut_n && dut.cmd != CmdNone && !dut.done && !dut.fail)
+             || !rst_dut_n || dut.cmd == $past(dut.cmd))
 
   // ---- lemmas: states of block and EEPROM -----------------------------------------------------------
 
@@ -256,139 +249,139 @@ module pmc006_eeprom_fv
   assign sure = !blind_q && !both_ok;
 
   // flags of the block
-  `LEMMA(lemma_state, state <= StIdle)
-  `LEMMA(
+  `FV_LEMMA(lemma_state, state <= StIdle)
+  `FV_LEMMA(
       lemma_reset,
       state != StReset || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_free,
       state != StFree || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_idle,
       state != StIdle || !(save_q || boot_o || burning_o || dut.factory_q || dut.retry_q || dut.poll_q || dut.first_q || dut.copy_q || dut.store_q || dut.addr_q != '0))
-  `LEMMA(lemma_load, !(state inside {StWipe, StLoad}) || booting)
-  `LEMMA(lemma_read, !dut.read_q || (booting && bus && !dut.poll_q))
-  `LEMMA(lemma_booting, !booting || !(burning_o || dut.first_q || written_q || begun_q))
-  `LEMMA(lemma_boot_start, !(booting && state inside {StStart, StDevice}) || dut.read_q != dut.poll_q)
-  `LEMMA(lemma_boot_read, !(booting && state inside {[StHigh : StData]}) || dut.read_q)
-  `LEMMA(
+  `FV_LEMMA(lemma_load, !(state inside {StWipe, StLoad}) || booting)
+  `FV_LEMMA(lemma_read, !dut.read_q || (booting && bus && !dut.poll_q))
+  `FV_LEMMA(lemma_booting, !booting || !(burning_o || dut.first_q || written_q || begun_q))
+  `FV_LEMMA(lemma_boot_start, !(booting && state inside {StStart, StDevice}) || dut.read_q != dut.poll_q)
+  `FV_LEMMA(lemma_boot_read, !(booting && state inside {[StHigh : StData]}) || dut.read_q)
+  `FV_LEMMA(
       lemma_boot_poll,
       !(booting && bus && !dut.read_q) || (dut.addr_q == '0 && dut.u_page.sum_q == '0 && !dut.copy_q && !dut.page_bad_q))
-  `LEMMA(lemma_poll_states, !(dut.poll_q && bus) || state inside {StStart, StDevice, StStop})
-  `LEMMA(lemma_write_states, !in_write || !(state inside {StAgain, StSource}))
-  `LEMMA(lemma_jobs, !writing || save_q + burn_q + dut.factory_q == 2'd1)
-  `LEMMA(lemma_factory, !dut.factory_q || writing || state == StSettle)
-  `LEMMA(lemma_job_flags, !save_q || !boot_o)
-  `LEMMA(
+  `FV_LEMMA(lemma_poll_states, !(dut.poll_q && bus) || state inside {StStart, StDevice, StStop})
+  `FV_LEMMA(lemma_write_states, !in_write || !(state inside {StAgain, StSource}))
+  `FV_LEMMA(lemma_jobs, !writing || save_q + burn_q + dut.factory_q == 2'd1)
+  `FV_LEMMA(lemma_factory, !dut.factory_q || writing || state == StSettle)
+  `FV_LEMMA(lemma_job_flags, !save_q || !boot_o)
+  `FV_LEMMA(
       lemma_restore,
       (booting || restore_q) ? (!booting || restore_q == dut.restore_q) : !(dut.factory_q || dut.restore_q))
-  `LEMMA(lemma_burn, !burning_o || !(boot_o || dut.factory_q || dut.copy_q))
-  `LEMMA(lemma_retry, !dut.retry_q || (dut.poll_q && !(state inside {[StStart : StData]})))
-  `LEMMA(
+  `FV_LEMMA(lemma_burn, !burning_o || !(boot_o || dut.factory_q || dut.copy_q))
+  `FV_LEMMA(lemma_retry, !dut.retry_q || (dut.poll_q && !(state inside {[StStart : StData]})))
+  `FV_LEMMA(
       lemma_writes,
       !writing || writes_q == (burn_q ? (dut.first_q ? 5'd0 : pages_q + 1'b1) : 5'(!dut.first_q)) + 5'(dut.poll_q))
-  `LEMMA(lemma_no_writes, !(booting || state == StIdle) || writes_q == '0)
-  `LEMMA(
+  `FV_LEMMA(lemma_no_writes, !(booting || state == StIdle) || writes_q == '0)
+  `FV_LEMMA(
       lemma_late,
       !(bus && dut.poll_q && dut.poll_timeout) || late_q <= ((state == StStart) ? 3'd0 : (state == StDevice) ? 3'd1 : 3'd2))
-  `LEMMA(lemma_wipe, state != StWipe || (rest_q == 11'(dut.addr_q) - 11'h020 && dut.addr_q < 10'h340))
-  `LEMMA(
+  `FV_LEMMA(lemma_wipe, state != StWipe || (rest_q == 11'(dut.addr_q) - 11'h020 && dut.addr_q < 10'h340))
+  `FV_LEMMA(
       lemma_loaded,
       state != StLoad || (dut.addr_q inside {[10'h003 : 10'h015]} && rest_q <= 11'd800 + 11'd8 * 11'(dut.addr_q - 10'd3) + 11'(dut.phase_q) + 11'd152 * 11'(store_o)))
-  `LEMMA(lemma_settle, state != StSettle || rest_q <= 11'd1104)
-  `LEMMA(lemma_idle_rest, state != StIdle || rest_q <= 11'd1105)
-  `LEMMA(lemma_factory_values, !(boot_o && dut.factory_q) || !rst_settings_no)
-  `LEMMA(lemma_store, !store_o || state inside {StLoad, StSettle})
+  `FV_LEMMA(lemma_settle, state != StSettle || rest_q <= 11'd1104)
+  `FV_LEMMA(lemma_idle_rest, state != StIdle || rest_q <= 11'd1105)
+  `FV_LEMMA(lemma_factory_values, !(boot_o && dut.factory_q) || !rst_settings_no)
+  `FV_LEMMA(lemma_store, !store_o || state inside {StLoad, StSettle})
 
   // order of page and copy
-  `LEMMA(lemma_order, booting || blind_q || !any_ok || (dut.page_first_q ? copy_ok_q : page_ok_q))
-  `LEMMA(lemma_page_first, !(writing && !burn_q) || dut.copy_q == !dut.page_first_q)
-  `LEMMA(lemma_second, !(writing && !burn_q && !dut.first_q) || (dut.copy_q ? page_ok_q : copy_ok_q))
-  `LEMMA(lemma_boot_first, !booting || !dut.page_first_q)
-  `LEMMA(lemma_blind, !(booting && dut.restore_q) || !sure)
-  `LEMMA(lemma_accept, !(booting && sure) || !(dut.copy_q ? copy_ok_q : page_ok_q) || !dut.page_bad_q)
-  `LEMMA(lemma_page_bad, !(booting && sure && dut.copy_q) || !page_ok_q)
-  `LEMMA(
+  `FV_LEMMA(lemma_order, booting || blind_q || !any_ok || (dut.page_first_q ? copy_ok_q : page_ok_q))
+  `FV_LEMMA(lemma_page_first, !(writing && !burn_q) || dut.copy_q == !dut.page_first_q)
+  `FV_LEMMA(lemma_second, !(writing && !burn_q && !dut.first_q) || (dut.copy_q ? page_ok_q : copy_ok_q))
+  `FV_LEMMA(lemma_boot_first, !booting || !dut.page_first_q)
+  `FV_LEMMA(lemma_blind, !(booting && dut.restore_q) || !sure)
+  `FV_LEMMA(lemma_accept, !(booting && sure) || !(dut.copy_q ? copy_ok_q : page_ok_q) || !dut.page_bad_q)
+  `FV_LEMMA(lemma_page_bad, !(booting && sure && dut.copy_q) || !page_ok_q)
+  `FV_LEMMA(
       lemma_program,
       !(booting && (state inside {StWipe, StLoad, StSettle} || (dut.copy_q && bus) || (reading && dut.addr_q > 10'h020))) || program_ok_q || dut.program_bad_q)
-  `LEMMA(lemma_not_read, !(reading && dut.addr_q == '0) || !dut.page_bad_q)
-  `LEMMA(
+  `FV_LEMMA(lemma_not_read, !(reading && dut.addr_q == '0) || !dut.page_bad_q)
+  `FV_LEMMA(
       lemma_read_ok,
       !(booting && sure && (state inside {StWipe, StLoad} || (reading && dut.addr_q != '0))) || dut.page_bad_q || (read_ok_q && copy_read_q == dut.copy_q))
-  `LEMMA(lemma_legal, state != StLoad || store_o || dut.page_bad_q == !legal_q)
-  `LEMMA(
+  `FV_LEMMA(lemma_legal, state != StLoad || store_o || dut.page_bad_q == !legal_q)
+  `FV_LEMMA(
       lemma_checked,
       !(booting && sure && (store_o || state == StSettle)) || dut.page_bad_q || (source_ok && copy_read_q == dut.copy_q))
 
   // bytes
   assign sum_is_zero = dut.addr_q == '0 || (burn_q && dut.first_q) || (dut.addr_q == 10'h020 && (dut.read_q || burn_q));
-  `LEMMA(lemma_sum,
+  `FV_LEMMA(lemma_sum,
          !(writing || (reading && state != StStop)) || dut.u_page.sum_q == (sum_is_zero ? '0 : sum_q))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_high,
       !(state == StData && in_write && !burn_q && dut.addr_q[0] && (dut.addr_q == 10'h005 || dut.addr_q >= 10'h00c)) || (dut.u_page.high_q == high_q && (dut.addr_q != 10'h005 || high_q == '0)))
-  `LEMMA(lemma_master,
+  `FV_LEMMA(lemma_master,
          !(dut.u_master.done_o || dut.u_master.fail_o) || (dut.u_master.begun_q && (bus || state == StFree)))
-  `LEMMA(lemma_one_end, !(dut.u_master.done_o && dut.u_master.fail_o))
-  `LEMMA(lemma_sent,
+  `FV_LEMMA(lemma_one_end, !(dut.u_master.done_o && dut.u_master.fail_o))
+  `FV_LEMMA(lemma_sent,
          !(dut.u_master.begun_q && state inside {StDevice, StHigh, StLow, StSource}) || sent_q == dut.out)
-  `LEMMA(lemma_device,
+  `FV_LEMMA(lemma_device,
          !(state inside {StDevice, StSource}) || (listen_q && place_q == 2'd0 && !begun_q && !reads_q))
-  `LEMMA(lemma_high_addr, state != StHigh || (listen_q && place_q == 2'd1 && !begun_q && !reads_q))
-  `LEMMA(
+  `FV_LEMMA(lemma_high_addr, state != StHigh || (listen_q && place_q == 2'd1 && !begun_q && !reads_q))
+  `FV_LEMMA(
       lemma_low_addr,
       state != StLow || (listen_q && place_q == 2'd2 && !begun_q && !reads_q && addr_q[9:8] == (dut.addr_q[9:8] | {2{dut.copy_q}})))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_address,
       !(state inside {StAgain, StSource, StData}) || addr_q == (dut.copy_q ? {CopyBlock, 5'd0} : 10'd0) + dut.addr_q)
-  `LEMMA(lemma_data, state != StData || (listen_q && place_q == 2'd3 && reads_q == dut.read_q))
-  `LEMMA(lemma_begun,
+  `FV_LEMMA(lemma_data, state != StData || (listen_q && place_q == 2'd3 && reads_q == dut.read_q))
+  `FV_LEMMA(lemma_begun,
          !(state == StData && !reads_q && dut.u_master.begun_q) || (begun_q && dut.last_q == whole))
-  `LEMMA(lemma_more, !(state == StData && !reads_q && begun_q && !dut.u_master.begun_q) || !whole)
-  `LEMMA(lemma_stop,
+  `FV_LEMMA(lemma_more, !(state == StData && !reads_q && begun_q && !dut.u_master.begun_q) || !whole)
+  `FV_LEMMA(lemma_stop,
          !(in_write && state == StStop && !failed_o) || (listen_q && begun_q && whole && place_q == 2'd3))
-  `LEMMA(lemma_not_acknowledged, !(bus && failed_o) || !listen_q)
-  `LEMMA(lemma_start, !begun_q || state inside {StData, StStop})
-  `LEMMA(lemma_failed, !(bus && state != StStop) || !failed_o)
-  `LEMMA(lemma_polled,
+  `FV_LEMMA(lemma_not_acknowledged, !(bus && failed_o) || !listen_q)
+  `FV_LEMMA(lemma_start, !begun_q || state inside {StData, StStop})
+  `FV_LEMMA(lemma_failed, !(bus && state != StStop) || !failed_o)
+  `FV_LEMMA(lemma_polled,
          !(in_poll && state == StStop) || (dut.retry_q ? !listen_q : (listen_q && place_q == 2'd1)))
-  `LEMMA(lemma_poll, !in_poll || (written_q && !failed_o && !begun_q))
+  `FV_LEMMA(lemma_poll, !in_poll || (written_q && !failed_o && !begun_q))
 
   // addresses
-  `LEMMA(
+  `FV_LEMMA(
       lemma_block,
       !(in_poll || (in_write && begun_q)) || block_q == (burn_q ? (dut.first_q ? TrailerBlock : pages_q + 1'b1) : dut.copy_q ? CopyBlock : PageBlock))
-  `LEMMA(lemma_copy_addr, !(bus && !burn_q && (dut.copy_q || writing)) || dut.addr_q <= 10'd32)
-  `LEMMA(
+  `FV_LEMMA(lemma_copy_addr, !(bus && !burn_q && (dut.copy_q || writing)) || dut.addr_q <= 10'd32)
+  `FV_LEMMA(
       lemma_fresh,
       !(in_write && !begun_q && state != StStop) || dut.addr_q == (!burn_q ? 10'd0 : dut.first_q ? MarkAddr : {pages_q + 1'b1, 5'd0}))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_next_page,
       !((in_poll || (in_write && begun_q && whole)) && burn_q && !dut.first_q) || dut.addr_q == (pages_q == 5'd25 ? EndAddr : {pages_q + 5'd2, 5'd0}))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_same_page,
       !(state == StData && in_write && burn_q && !(begun_q && whole)) || (dut.first_q ? dut.addr_q == MarkAddr : dut.addr_q[9:5] == pages_q + 1'b1 && dut.addr_q <= MarkAddr))
-  `LEMMA(lemma_first_mark,
+  `FV_LEMMA(lemma_first_mark,
          !((in_poll || (in_write && begun_q)) && burn_q && dut.first_q) || dut.addr_q == EndAddr)
-  `LEMMA(lemma_pages, !(writing && burn_q && !dut.first_q) || pages_q <= 5'd25)
-  `LEMMA(lemma_mark, !(writing && burn_q && !dut.first_q) || mark_clear_q || dut.addr_q == EndAddr)
-  `LEMMA(
+  `FV_LEMMA(lemma_pages, !(writing && burn_q && !dut.first_q) || pages_q <= 5'd25)
+  `FV_LEMMA(lemma_mark, !(writing && burn_q && !dut.first_q) || mark_clear_q || dut.addr_q == EndAddr)
+  `FV_LEMMA(
       lemma_mark_zero,
       !(writing && burn_q && (begun_q || dut.poll_q) && dut.addr_q == EndAddr) || mark_zero_q == dut.first_q)
-  `LEMMA(
+  `FV_LEMMA(
       lemma_read_start,
       !(reading && state inside {[StStart : StSource]}) || dut.addr_q == '0 || (dut.addr_q == 10'h020 && !dut.copy_q))
-  `LEMMA(
+  `FV_LEMMA(
       lemma_read_last,
       !(reading && state == StData && dut.u_master.begun_q) || dut.last_q == (dut.addr_q inside {10'h01f, MarkAddr}))
-  `LEMMA(lemma_read_addr, !(reading && state == StData) || dut.addr_q <= MarkAddr)
-  `LEMMA(lemma_read_stop, !(reading && state == StStop && !failed_o) || dut.addr_q inside {10'h020, EndAddr})
-  `LEMMA(lemma_copy_end, !(reading && dut.copy_q && state == StData) || dut.addr_q <= 10'h01f)
+  `FV_LEMMA(lemma_read_addr, !(reading && state == StData) || dut.addr_q <= MarkAddr)
+  `FV_LEMMA(lemma_read_stop, !(reading && state == StStop && !failed_o) || dut.addr_q inside {10'h020, EndAddr})
+  `FV_LEMMA(lemma_copy_end, !(reading && dut.copy_q && state == StData) || dut.addr_q <= 10'h01f)
 
-  `FV_COVER(seen_boot, booted_q && $past(rst_part_n) && read_byte && head_ok && addr_q == 10'h001)
-  `FV_COVER(seen_checked, checked && copy_read_q && rst_part_n && page_ok_q != copy_ok_q)
-  `FV_COVER(seen_save, save_q && acknowledged && block_q == PageBlock && $past(rst_part_n))
-  `FV_COVER(seen_burn, acknowledged && block_q == TrailerBlock && !mark_zero_q && $past(rst_part_n))
+  `FV_COVER(seen_boot, booted_q && $past(rst_dut_n) && read_byte && head_ok && addr_q == 10'h001)
+  `FV_COVER(seen_checked, checked && copy_read_q && rst_dut_n && page_ok_q != copy_ok_q)
+  `FV_COVER(seen_save, save_q && acknowledged && block_q == PageBlock && $past(rst_dut_n))
+  `FV_COVER(seen_burn, acknowledged && block_q == TrailerBlock && !mark_zero_q && $past(rst_dut_n))
 
 endmodule
 
