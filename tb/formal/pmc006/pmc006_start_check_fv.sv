@@ -16,7 +16,7 @@ module pmc006_start_check_fv
     input wire logic            ext_event_i,
     input wire logic            stall_stop_i,
     input wire logic            key_stop_i,
-    input wire logic            end_i          // the motion ends by itself
+    input wire logic            end_i          // the motion ends without a stop
 );
 
   logic busy_i, start_o, run_o, halt_o, speed_o, speed_mode_o;
@@ -30,8 +30,8 @@ module pmc006_start_check_fv
 
   assign busy_i = busy_q;
 
-  // A stall stops only a motion in progress. A speed run ends by itself only after N 0, and not in the cycle of
-  // N 1.
+  // A stall stops only a motion in progress. Without a stop, a speed run ends only after N 0, and not in the
+  // cycle of N 1.
   `FV_ASSUME(stall_of_a_motion, !stall_stop_i || busy_q)
   `FV_ASSUME(run_ends_after_stop, !end_i || !(endless_q && speed_o))
 

@@ -202,8 +202,9 @@ class Engine:
 
     Attributes:
         failed: True if the last job other than BOOT ended because the device did not respond.
-        page_valid: False if the parameter page may be invalid and its copy is valid. Normally the copy is written
-            first; in this case the page is. Therefore, after a power cut at any time one of the two is valid.
+        page_valid: False if the parameter page may be invalid and its copy is valid. Normally the copy is
+            written first; in this case the page is. Therefore, after a power cut at any time one of the two
+            is valid.
     """
 
     def __init__(self, context: ExecutionContext, bus: Bus, device: int) -> None:
