@@ -77,8 +77,8 @@ module pmc006_eeprom
   state_e state_q;
   logic tick, first, done, fail, nack;
   logic boot_q, restore_q, poll_q, read_q, burn_q, first_q, copy_q, factory_q, fail_q, retry_q;
-  logic page_first_q, last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout, byte_sent, byte_received;
-  logic mismatch, clear_sum, abort, try_copy;
+  logic page_first_q, last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout;
+  logic byte_sent, byte_received, mismatch, clear_sum, abort, try_copy;
   logic [1:0] prefetch_valid_q;
   logic [2:0] phase_q;
   logic [9:0] addr_q;
