@@ -2,7 +2,7 @@
 // pmc006_eeprom_fv: compares the bus commands of pmc006_eeprom with a model of the EEPROM that survives
 // resets of the part. Resets can occur in every cycle.
 `include "ppmc_fv.svh"
-`include "pmc006/lemma.svh"
+`include "common/ppmc_lemma.svh"
 `default_nettype none
 
 module pmc006_eeprom_fv

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_rate_fv: compares steps, update ticks and the end of a motion with an accumulator and counters.
 `include "ppmc_fv.svh"
-`include "pmc006/lemma.svh"
+`include "common/ppmc_lemma.svh"
 `default_nettype none
 
 module pmc006_rate_fv (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pmc006_serial_fv: proves the times and the bits of the reply, and that no byte is received during the reply.
 `include "ppmc_fv.svh"
-`include "pmc006/lemma.svh"
+`include "common/ppmc_lemma.svh"
 `default_nettype none
 
 module pmc006_serial_fv

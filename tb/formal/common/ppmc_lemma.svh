@@ -4,8 +4,8 @@
 // search before the induction finds covers and faults within a few cycles. Reset must satisfy the lemmas.
 // FV_ANY_START defines rst_dut_n, the reset of the block, which is free_i in every cycle; assertions are
 // disabled in the first cycle. FV_LEMMA asserts a property, and assumes it in the first cycle after that.
-`ifndef PMC006_LEMMA_SVH
-`define PMC006_LEMMA_SVH
+`ifndef PPMC_LEMMA_SVH
+`define PPMC_LEMMA_SVH
 
 `define FV_ANY_START(free_i_) \
   logic rst_dut_n, later_q; \
