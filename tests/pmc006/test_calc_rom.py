@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cache
+from itertools import product
+from typing import NamedTuple
+
 import pytest
 
 from cocotb_tests.harness.project import ProjectError
@@ -159,3 +163,68 @@ def test_package_without_marks() -> None:
     """If the package lacks the marks around the generated text, the package is rejected and not changed."""
     with pytest.raises(ProjectError, match="the marks of `make rom` are missing"):
         calc_rom.package_text("package p; endpackage", program("halt"))
+
+
+class State(NamedTuple):
+    """Registers of the planner that conditions read."""
+
+    phase: int
+    up: int
+    smooth: int
+    acc: int
+    dec: int
+
+
+class Paths:
+    """Longest paths through a program: every outcome of Carry and Zero is possible; the inputs are stable."""
+
+    def __init__(self, words: list[int], **inputs: int) -> None:
+        self.words, self.inputs = words, inputs
+        self.op, self.cond = (
+            {code: name for name, code in NAMES[enum].items()} for enum in ("calc_op_e", "cond_e")
+        )
+        self.longest = cache(self._longest)
+
+    def _taken(self, aux: int, state: State) -> list[int]:
+        """Return the possible outcomes of a condition."""
+        name, phase = self.cond[aux].removeprefix("Cond"), state.phase
+        known = self.inputs | {
+            "Always": 1, "Stop": self.inputs["Stop"] & self.inputs["Speed"], "Ending": phase & 3 == 2,
+            "Ramp": phase >> 2, "Live": phase & 3 == 0 and not self.inputs["Short"], "Up": state.up,
+            "Smooth": state.smooth, "Acc5": state.acc == 5, "Dec5": state.dec == 5,
+        }  # fmt: skip
+        return [int(known[name])] if name in known else [0, 1]
+
+    def _longest(self, at: int, state: State) -> int:
+        """Return the largest number of cycles from the fetch of a word to the end of the run."""
+        op, aux, low = self.op[self.words[at] >> 13], self.words[at] >> 9 & 15, self.words[at] & 511
+        if op == "OpHalt":
+            return 2
+        steps = {0: 1, 1: 2, 3: 16}.get(aux, 32) if op == "OpMul" else 32
+        cycles = {"OpLoad": 3, "OpAdd": 3, "OpSub": 3, "OpMul": steps + 2, "OpDiv": 34, "OpRoot": 34}.get(
+            op, 2
+        )
+        if op == "OpOut":
+            state = state._replace(acc=state.acc + (aux == 4), dec=state.dec + (aux == 5))
+        if op == "OpSet":
+            phase = state.phase & 3 if aux & 8 else low >> 2 if aux & 4 else state.phase
+            up, smooth = low >> 1 & 1 if aux & 2 else state.up, low & 1 if aux & 1 else state.smooth
+            state = state._replace(phase=phase, up=up, smooth=smooth)
+        assert max(state.acc, state.dec) <= 5
+        following = (
+            [low if taken else at + 1 for taken in self._taken(aux, state)] if op == "OpJump" else [at + 1]
+        )
+        return cycles + max(self.longest(place, state) for place in following)
+
+
+@pytest.mark.parametrize(("entry", "limit"), [("EntryPlan", 785), ("EntryTick", 590)])
+def test_runs_end(entry: str, limit: int) -> None:
+    """Every run ends within the bound of pmc006_calc, on every path; pmc006_calc_fv proves the durations."""
+    made = assemble(calc_rom.ASM.read_text(), NAMES)
+    words, worst = [word.code for word in made.words], 0
+    for short, speed, stop, analog in product((0, 1), repeat=4):
+        plan = int(entry == "EntryPlan")
+        paths = Paths(words, Short=short, Speed=speed, Stop=stop, Analog=analog, Plan=plan)
+        for state in product((0, 1, 2, 4, 5, 6), (1,) if plan else (0, 1), (0, 1), range(6), range(6)):
+            worst = max(worst, paths.longest(made.labels[entry], State(*state)))
+    assert limit - 50 < worst <= limit

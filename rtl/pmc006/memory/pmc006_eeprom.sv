@@ -77,8 +77,8 @@ module pmc006_eeprom
   state_e state_q;
   logic tick, first, done, fail, nack;
   logic boot_q, restore_q, poll_q, read_q, burn_q, first_q, copy_q, factory_q, fail_q, retry_q;
-  logic page_first_q, last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout, byte_sent, byte_received;
-  logic mismatch, clear_sum, abort, try_copy;
+  logic page_first_q, last_q, store_q, page_bad_q, program_bad_q, last, poll_timeout;
+  logic byte_sent, byte_received, mismatch, clear_sum, abort, try_copy;
   logic [1:0] prefetch_valid_q;
   logic [2:0] phase_q;
   logic [9:0] addr_q;
@@ -195,9 +195,7 @@ module pmc006_eeprom
       .past_o   (poll_timeout)
   );
 
-  always_ff @(posedge clk_i) begin
-    phase_q <= (state_q == StLoad) ? phase_q + 1'b1 : 3'd0;
-  end
+  always_ff @(posedge clk_i) phase_q <= (state_q == StLoad) ? phase_q + 1'b1 : 3'd0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -219,10 +217,8 @@ module pmc006_eeprom
       addr_q        <= '0;
     end else begin
       if (byte_received || byte_sent || state_q == StWipe) addr_q <= addr_q + 1'b1;
-      if (mismatch) begin
-        if (addr_q[9:5] != '0) program_bad_q <= 1'b1;
-        else page_bad_q <= 1'b1;
-      end
+      if (mismatch && addr_q[9:5] != '0) program_bad_q <= 1'b1;
+      if (mismatch && addr_q[9:5] == '0) page_bad_q <= 1'b1;
 
       unique case (state_q)
         StReset:
@@ -305,10 +301,8 @@ module pmc006_eeprom
           first_q   <= 1'b0;
           copy_q    <= 1'b0;
           store_q   <= 1'b0;
-          if (boot_q && !factory_q) begin
-            fail_q       <= 1'b0;
-            page_first_q <= copy_q && !page_bad_q && !restore_q;
-          end
+          if (boot_q && !factory_q) fail_q <= 1'b0;
+          if (boot_q && !factory_q) page_first_q <= copy_q && !page_bad_q && !restore_q;
           if (try_copy) begin
             state_q    <= StStart;
             boot_q     <= 1'b1;

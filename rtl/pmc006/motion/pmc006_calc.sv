@@ -5,7 +5,8 @@
 // Rules:  P006-MOT-10..23, P006-EXC-20..23; docs/pmc006/README.md, 6.1.
 // Timing: an instruction takes 2 cycles without an operand, 3 cycles with an operand, n + 2 cycles with n
 //         steps. A run ends within 785 cycles of plan_i, and within 590 cycles of advance_i. plan_i aborts
-//         a run in progress: a motion can be halted, and the next motion started, during a run.
+//         a run in progress: a motion can be halted, and the next motion started, during a run. The aborted
+//         run does not load V in the cycle of plan_i or later.
 // Assumes: advance_i is low while busy_o is high (two update ticks are at least 800 cycles apart).
 `include "ppmc_assert.svh"
 `default_nettype none
@@ -48,7 +49,7 @@ module pmc006_calc
   logic run_q, read_q, no_operand, exec_q, fetch, last, done, taken;
   logic [8:0] pc_q, pc_d;
   logic [4:0] steps_left_q, steps;
-  logic plan_q, up_q, smooth_q, carry_q, zero;
+  logic plan_q, up_q, smooth_q, carry_q, zero, load_v_q;
   logic [2:0] acc_q, dec_q;
 
   logic [31:0] hi_q, lo_q, operand_q, a, b;
@@ -197,13 +198,15 @@ module pmc006_calc
 
   // ---- results --------------------------------------------------------------------------------------------
 
+  assign load_v_o = load_v_q && !plan_i;
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       plan_q   <= 1'b0;
       phase_o  <= PhCruise;
-      load_v_o <= 1'b0;
+      load_v_q <= 1'b0;
     end else begin
-      load_v_o <= done && ir_q.op == OpOut && output_sel_e'(ir_q.aux) == OutSpeed;
+      load_v_q <= done && !plan_i && ir_q.op == OpOut && output_sel_e'(ir_q.aux) == OutSpeed;
       if (plan_i || advance_i) plan_q <= plan_i;
       if (done && ir_q.op == OpSet) begin
         if (ir_q.aux[3]) phase_o <= phase_e'({1'b0, phase_o[1:0]});
