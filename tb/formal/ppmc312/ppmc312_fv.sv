@@ -9,40 +9,48 @@ module ppmc312_fv
   import ppmc312_pkg::*;
   import ppmc312_link_pkg::*;
 (
-    input wire logic       clk_i,
-    input wire logic       pin_rst_n,
-    input wire logic       mode,
-    input wire logic [7:0] d_i,
-    input wire logic [2:0] rs,
-    input wire logic       cs_n,
-    input wire logic       we_n,
-    input wire logic       oe_n,
-    input wire logic       rxd,
-    input wire logic       hsp,
-    input wire logic [2:0] mod,
-    input wire logic [3:0] adr,
-    input wire logic       evt0_n,
-    input wire logic       evt1_n,
-    input wire logic [7:0] auxi,
-    input wire logic       alm_n,
-    input wire logic       end_n,
-    input wire logic       epin,
-    input wire logic       epdir,
-    input wire logic       index_n,
-    input wire logic       org_n,
-    input wire logic       fl_n,
-    input wire logic       bl_n,
-    input wire logic       fhl_n,
-    input wire logic       bhl_n,
-    input wire logic       extck,
-    input wire logic       run
+    input wire logic        clk_i,
+    input wire logic [46:0] pins_i  // all input pins but the clock
 );
 
+  logic [7:0] d_i, auxi;
+  logic [3:0] adr;
+  logic [2:0] rs, mod;
+  logic pin_rst_n, mode, cs_n, we_n, oe_n, rxd, hsp, evt0_n, evt1_n, alm_n, end_n, epin, epdir, index_n, org_n;
+  logic fl_n, bl_n, fhl_n, bhl_n, extck, run;
   logic [7:0] d_o;
   logic d_oe, wrq_n, irq_n, txd, snd, exon_n, cclr_n, aclr_n, zclmp_n, cd_n, pout, dir, intlk_n, out_oe;
   logic [5:0] auxo_n;
 
   `FV_RESET
+
+`ifdef FV_COVERS
+  // A cover needs two instructions, so its host has a fixed sequence: it writes a block of 11 bytes (initial
+  // setting), reads the answer of 3 bytes, and writes a block of 10 bytes (one pulse CCW).
+  localparam logic [10:0][7:0] Init = 88'hD00700_C800_E803_01_00_09_03;
+  localparam logic [9:0][7:0] Move = 80'h01000000_0000_40_82_08_03;
+  logic [8:0] time_q;
+  logic [3:0] first_n, second_n;  // number of the write of a block
+  logic writes, reads;
+  always_ff @(posedge clk_i) time_q <= rst_ni ? time_q + 9'd1 : '0;
+  assign first_n = 4'((time_q - 9'd8) >> 1);
+  assign second_n = 4'((time_q - 9'd130) >> 1) + 4'd1;
+  assign writes = !time_q[0] && (time_q inside {[9'd8 : 9'd32], [9'd130 : 9'd150]});
+  assign reads = time_q inside {[9'd100 : 9'd104], [9'd108 : 9'd112], [9'd116 : 9'd120]};
+  assign {cs_n, we_n, oe_n} = {!writes && !reads, !writes, !reads};
+  always_comb begin
+    {rs, d_i} = reads ? {3'd7, 8'd0} : {3'd5, (time_q < 9'd100) ? Init[4'd12-first_n] : Move[4'd11-second_n]};
+    if (writes && time_q < 9'd100 && first_n == 4'd0) {rs, d_i} = {3'd2, 8'h20};
+    if (writes && time_q < 9'd100 && first_n == 4'd1) {rs, d_i} = {3'd3, 8'h15};
+    if (writes && time_q > 9'd100 && second_n == 4'd1) {rs, d_i} = {3'd3, 8'h16};
+  end
+  assign {pin_rst_n, mode, rxd, hsp, mod, adr, evt0_n, evt1_n, auxi} = {3'b111, 8'd0, 2'b11, 8'd0};
+  assign {alm_n, end_n, epin, epdir, index_n, org_n, fhl_n, bhl_n, extck, run} = 10'b11_00_11_11_11;
+  assign {fl_n, bl_n} = pins_i[1:0] | {2{time_q < 9'd200}};
+`else
+  assign {pin_rst_n, mode, d_i, rs, cs_n, we_n, oe_n, rxd, hsp, mod, adr, evt0_n, evt1_n, auxi, alm_n, end_n,
+          epin, epdir, index_n, org_n, fl_n, bl_n, fhl_n, bhl_n, extck, run} = pins_i;
+`endif
 
   ppmc312 #(
       .CLK_HZ (8_000_000),
@@ -256,7 +264,7 @@ module ppmc312_fv
              !on || !held || (dut.u_core.u_instr.u_move.endless_q == endless_q &&
              (endless_q || dut.u_core.u_instr.u_move.count_q == wanted_q)))
 
-  `FV_COVER(seen_limit, limit_q && dir_q && output_q && launch_q == 1'b0)
+  `FV_COVER(seen_limit, limit_q && dir_q && output_q)
   `FV_COVER(seen_end, stop && cause.nos)
   `FV_COVER(seen_pulse, moved && dir)
 

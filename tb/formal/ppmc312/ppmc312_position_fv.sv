@@ -56,7 +56,7 @@ module ppmc312_position_fv (
   `FV_ASSERT(p312_mon_01_edges, enc_o == enc_q)
   `FV_ASSERT(p312_out_03_lock, lock_o == lock_q)
   `FV_ASSERT(p312_out_03_unlock, unlock_o == $past(rst_ni && reached))
-  `FV_ASSERT(lemma_lock, dut.lock_pos_q == lock_pos_q)
+  `FV_ASSERT(lemma_lock, dut.lock_pos_q == lock_pos_q && dut.epin_q == epin_q)
 
   // ---- monitors ---------------------------------------------------------------------------------------
 
@@ -91,6 +91,7 @@ module ppmc312_position_fv (
              young_q < 3'd2 || (dut.negative_q == difference_q2[31] &&
              dut.size_q == (difference_q2[15:0] ^ {16{difference_q2[31]}}) &&
              dut.large_q == (difference_q2[31:16] != {16{difference_q2[31]}})))
+  `FV_ASSERT(lemma_settle, dut.settle_q == ((rest_q >= 3'd4) ? 4'hf : ~(4'hf << rest_q[1:0])))
   `FV_ASSERT(p312_mon_03_standstill, dut.evaluate == {1'b1, rest_q >= 3'd4 && !output_i})
   `FV_ASSERT(p312_mon_06_clamp, !coupled_o || (window_on_o[0] && rest_q >= 3'd4 && !output_i))
   `FV_ASSERT(p312_mon_06_inside, coupled_inside_o == (coupled_o && dut.inside_q[0]))
