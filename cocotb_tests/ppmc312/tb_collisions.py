@@ -114,6 +114,24 @@ async def p312_stop_between_the_phases_of_a_zero_return(dut: Any, case: Any) -> 
     assert host.out("dir") == 0 and await host.quiet()
 
 
+@cocotb.parametrize(gap=range(20, 44))
+@directed("P312-INP-30", "P312-INP-31")
+async def p312_alarm_as_a_held_start_begins(dut: Any, gap: int) -> None:
+    """An alarm in the cycle in which RUN begins to hold a start ends the operation, as one cycle later."""
+    host = await Host.start(dut, *TF, run=0)
+    await host.ready()
+    await host.put(message(Code.STEP, "00"), gap=gap)
+    await host.pins(alm_n=0)
+    while not await host.quiet(300):
+        await host.response()
+    await host.pins(alm_n=1)
+    assert await host.ask(message(Code.ALARM_CLEAR)) == message(Code.ALARM_CLEAR)
+    assert host.condition == 0x02
+    assert await host.ask(message(Code.STATUS)) == message(Code.STATUS, "00 02 00")
+    await host.pins(run=1)
+    assert await host.quiet() and not host.pulses()
+
+
 @directed("P312-INP-31", "P312-INP-33")
 async def p312_a_clear_given_before_the_alarm_does_not_leave_abn(dut: Any) -> None:
     host = await Host.start(dut, T1, message(Code.ALARM_CLEAR))

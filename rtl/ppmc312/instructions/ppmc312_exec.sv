@@ -316,6 +316,9 @@ module ppmc312_exec
 `ifndef SYNTHESIS
   `PPMC_ASSERT(p312_rsp_20, !(start && source != SrcHost && response_queue_i.full))
   `PPMC_ASSERT(p312_blk_02, !(execute_o && check != CheckOk))
+  `PPMC_ASSERT(p312_rsp_10_held, !execute_o || hold_o)  // reports that execute_o causes wait for its response
+  `PPMC_ASSERT(p312_par_06_done, !blk_done_o || host_block_i.valid)
+  `PPMC_ASSERT(p312_ser_19_done, !(response_done_o && host && serial_i) || host_block_i.valid)
 `endif
 
 endmodule

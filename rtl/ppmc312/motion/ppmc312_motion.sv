@@ -64,7 +64,7 @@ module ppmc312_motion
   state_e state_q;
   operation_t op_q;
   end_cause_t cause_d, cause_q, decel_cause_q, request;
-  logic abn_q, enter, stop_between, phase2_next_q, phase2_next_d, phase2, wait_pos_q, low_phase2;
+  logic abn_q, enter, abnormal, stop_between, phase2_next_q, phase2_next_d, phase2, wait_pos_q, low_phase2;
   logic immediate, fire, ready, ends, output_end, decel_q, org_q, slow_q, at_origin, slow, gate;
   logic limit, high_limit, origin;
   logic too_fast, fast_q, complete_q;
@@ -86,6 +86,7 @@ module ppmc312_motion
   assign origin = !levels_i.org_n && (!op_q.index || !levels_i.index_n);
   assign gate = run_i || settings_i.run_ignored;
   assign enter = (!levels_i.alm_n || multi_i.valid) && !abn_q;
+  assign abnormal = enter || abn_q;
   assign alarm_o = '{valid: enter || multi_i.valid, code: multi_i.valid ? multi_i.code : 2'd0};
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -116,7 +117,7 @@ module ppmc312_motion
 
   always_comb begin
     request     = '0;
-    request.als = enter || abn_q;
+    request.als = abnormal;
     request.stl = limit;
     request.org = op_q.origin && origin;
     request.stp = halt_i || (motion_req_i.pos_halt && !complete_q);  // no pos_halt after the last pulse
@@ -150,14 +151,15 @@ module ppmc312_motion
 
   assign stop_between = state_q == StLastPulse && phase2_next_q && (halt_i || decel_i);
   assign phase2 = state_q == StLastPulse && phase2_next_q && !pout_o && !enter && !stop_between;
-  assign launch_o = (motion_req_i.start && gate) || (state_q == StHold && gate && !enter) || phase2;
-  assign hold_end_o = state_q == StHold && gate && !enter;
+  assign launch_o = (motion_req_i.start && gate) || hold_end_o || phase2;
+  // abn_q = 1 if the alarm began in the cycle of motion_req_i.start.
+  assign hold_end_o = state_q == StHold && gate && !abnormal;
   assign output_end = state_q == StLastPulse && !phase2_next_q && !pout_o &&
       (!wait_pos_q || motion_req_i.triggers_done || abn_q);
   assign output_end_o = output_end;
   assign stop_o   = (output_end && !(settings_i.end_monitored && levels_i.end_n && !cause_q.als && !abn_q)) ||
       (state_q == StWaitEnd && (!levels_i.end_n || !settings_i.end_monitored || abn_q)) ||
-      (state_q == StHold && enter);
+      (state_q == StHold && abnormal);
   assign cause_o = (state_q == StHold) ? '{als: 1'b1, default: 1'b0} : cause_q;
   assign output_o = state_q inside {StPulses, StLastPulse};
   assign end_wait_o = state_q == StWaitEnd;
@@ -182,7 +184,7 @@ module ppmc312_motion
 
       unique case (state_q)
         StIdle:  if (motion_req_i.start && !gate) state_q <= StHold;
-        StHold:  if (enter) state_q <= StIdle;
+        StHold:  if (abnormal) state_q <= StIdle;
         StPulses:
         if (ends) begin
           state_q       <= StLastPulse;
