@@ -149,9 +149,9 @@ module ppmc312_serial_reply
   `PPMC_ASSERT(p312_ser_14_valid, blk_valid_o == (state_q == StRun && !done_q))
   `PPMC_ASSERT(p312_ser_14_offer, !blk_valid_o || $past(blk_valid_o || run_q))
   `PPMC_ASSERT(p312_ser_19_one, !reply_we || state_q != StSend)
-  `PPMC_ASSERT(p312_ser_20_codes,
-               !done_q || host_result_i.code[7:4] != 4'hf ||
-               host_result_i.code[3:0] inside {4'd0, 4'd1, 4'd2, 4'd5, 4'd6, 4'd7})
+  logic host_error;  // the code is that of an error of a host instruction
+  assign host_error = host_result_i.code[3:0] inside {[4'd0 : 4'd2], [4'd5 : 4'd7]};
+  `PPMC_ASSERT(p312_ser_20_codes, !done_q || host_result_i.code[7:4] != 4'hf || host_error)
 `endif
 
 endmodule
