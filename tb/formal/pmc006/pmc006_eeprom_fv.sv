@@ -71,8 +71,21 @@ module pmc006_eeprom_fv
   // 32 bytes of the settings, except the sum, which is 0 here
   function automatic logic [31:0][7:0] image(motor_settings_t set, control_settings_t ctl);
     return {
-      80'd0, 16'(set.cur), 16'(set.scomp), 16'(set.ccomp), 16'(set.vstop), 16'(set.vstart), 8'(ctl.offline),
-      8'(ctl.trigm), 8'(set.att), 8'(set.autodec), 8'(set.dec), 8'(set.acc), 8'd0, set.mstep, ctl.addr,
+      80'd0,
+      16'(set.cur),
+      16'(set.scomp),
+      16'(set.ccomp),
+      16'(set.vstop),
+      16'(set.vstart),
+      8'(ctl.offline),
+      8'(ctl.trigm),
+      8'(set.att),
+      8'(set.autodec),
+      8'(set.dec),
+      8'(set.acc),
+      8'd0,
+      set.mstep,
+      ctl.addr,
       24'h013650
     };
   endfunction
@@ -155,7 +168,10 @@ module pmc006_eeprom_fv
   // ---- boot -----------------------------------------------------------------------------------------
 
   // A block is accepted if head and sum are right and all its values are legal. A valid block is accepted.
-  assign head_ok = (addr_q[4:0] > 5'd2 || data == content[addr_q[1:0]]) && (addr_q[4:0] != '1 || data == sum[7:0]);
+  // verilog_format: off
+  assign head_ok = (addr_q[4:0] > 5'd2 || data == content[addr_q[1:0]]) && (addr_q[4:0] != '1
+      || data == sum[7:0]);
+  // verilog_format: on
   assign checked = state == StLoad && !store_o && dut.phase_q == '1 &&
       dut.addr_q[4:0] == 5'h15 && read_ok_q && legal_q;
   assign source_ok = copy_read_q ? copy_ok_q : page_ok_q;
@@ -171,9 +187,12 @@ module pmc006_eeprom_fv
     legal_q <= state != StLoad || (legal_q && !(dut.phase_q == 3'd5 && load_op_o != I_NONE && !legal_i));
   end
 
+  // verilog_format: off
   `FV_ASSUME(
       valid_block_is_read,
-      !read_byte || head_ok || !((page_ok_q && addr_q[9:5] == PageBlock) || (copy_ok_q && addr_q[9:5] == CopyBlock)))
+      !read_byte || head_ok || !((page_ok_q && addr_q[9:5] == PageBlock) || (copy_ok_q
+          && addr_q[9:5] == CopyBlock)))
+  // verilog_format: on
   `FV_ASSUME(valid_block_is_legal, state != StLoad || !source_ok || legal_i)
   `FV_ASSUME(registers_in_reset, rst_settings_no || control_i == CONTROL_RESET)
   `FV_ASSUME(no_job_while_busy, idle_o || !(save_i || burn_i))
@@ -209,15 +228,21 @@ module pmc006_eeprom_fv
   end
 
   `FV_LEMMA(p006_eep_10_never_neither, any_ok || !had_ok_q || blind_q)
+  // verilog_format: off
   `FV_ASSERT(
       p006_eep_10_bytes,
-      !(write_byte && addr_q[9:5] inside {PageBlock, CopyBlock}) || dut.out == ((addr_q[4:0] == '1) ? sum[7:0] : (addr_q[0] && addr_q[4:0] >= 5'h0c) ? high_q : content[addr_q[4:0]]))
+      !(write_byte && addr_q[9:5] inside {PageBlock, CopyBlock}) || dut.out == ((addr_q[4:0] == '1) ? sum[7:0]
+          : (addr_q[0] && addr_q[4:0] >= 5'h0c) ? high_q : content[addr_q[4:0]]))
+  // verilog_format: on
   `FV_ASSERT(
       p006_eep_11_pages,
       !(write_byte && addr_q[9:5] inside {[5'd1 : 5'd25]}) || (mark_clear_q && addr_q[9:5] == pages_q + 1'b1))
+  // verilog_format: off
   `FV_ASSERT(
       p006_eep_11_mark_last,
-      !(write_byte && addr_q == MarkAddr) || dut.out == 8'h00 || (dut.out == 8'h5a && mark_clear_q && pages_q == 5'd25 && begun_q))
+      !(write_byte && addr_q == MarkAddr) || dut.out == 8'h00 || (dut.out == 8'h5a && mark_clear_q
+          && pages_q == 5'd25 && begun_q))
+  // verilog_format: on
   `FV_ASSERT(
       p006_eep_11_sum,
       !(write_byte && addr_q[9:1] == SumAddr[9:1]) || dut.out == (addr_q[0] ? sum_q[15:8] : sum_q[7:0]))
@@ -250,23 +275,31 @@ module pmc006_eeprom_fv
 
   // flags of the block
   `FV_LEMMA(lemma_state, state <= StIdle)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_reset,
-      state != StReset || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
+      state != StReset || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q
+          || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
   `FV_LEMMA(
       lemma_free,
-      state != StFree || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
+      state != StFree || (booting && dut.addr_q == '0 && !(dut.poll_q || dut.read_q || dut.copy_q
+          || dut.page_bad_q || failed_o || dut.u_page.sum_q != '0)))
   `FV_LEMMA(
       lemma_idle,
-      state != StIdle || !(save_q || boot_o || burning_o || dut.factory_q || dut.retry_q || dut.poll_q || dut.first_q || dut.copy_q || dut.store_q || dut.addr_q != '0))
+      state != StIdle || !(save_q || boot_o || burning_o || dut.factory_q || dut.retry_q || dut.poll_q
+          || dut.first_q || dut.copy_q || dut.store_q || dut.addr_q != '0))
+  // verilog_format: on
   `FV_LEMMA(lemma_load, !(state inside {StWipe, StLoad}) || booting)
   `FV_LEMMA(lemma_read, !dut.read_q || (booting && bus && !dut.poll_q))
   `FV_LEMMA(lemma_booting, !booting || !(burning_o || dut.first_q || written_q || begun_q))
   `FV_LEMMA(lemma_boot_start, !(booting && state inside {StStart, StDevice}) || dut.read_q != dut.poll_q)
   `FV_LEMMA(lemma_boot_read, !(booting && state inside {[StHigh : StData]}) || dut.read_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_boot_poll,
-      !(booting && bus && !dut.read_q) || (dut.addr_q == '0 && dut.u_page.sum_q == '0 && !dut.copy_q && !dut.page_bad_q))
+      !(booting && bus && !dut.read_q) || (dut.addr_q == '0 && dut.u_page.sum_q == '0 && !dut.copy_q
+          && !dut.page_bad_q))
+  // verilog_format: on
   `FV_LEMMA(lemma_poll_states, !(dut.poll_q && bus) || state inside {StStart, StDevice, StStop})
   `FV_LEMMA(lemma_write_states, !in_write || !(state inside {StAgain, StSource}))
   `FV_LEMMA(lemma_jobs, !writing || save_q + burn_q + dut.factory_q == 2'd1)
@@ -277,17 +310,26 @@ module pmc006_eeprom_fv
       (booting || restore_q) ? (!booting || restore_q == dut.restore_q) : !(dut.factory_q || dut.restore_q))
   `FV_LEMMA(lemma_burn, !burning_o || !(boot_o || dut.factory_q || dut.copy_q))
   `FV_LEMMA(lemma_retry, !dut.retry_q || (dut.poll_q && !(state inside {[StStart : StData]})))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_writes,
-      !writing || writes_q == (burn_q ? (dut.first_q ? 5'd0 : pages_q + 1'b1) : 5'(!dut.first_q)) + 5'(dut.poll_q))
+      !writing || writes_q == (burn_q ? (dut.first_q ? 5'd0 : pages_q + 1'b1)
+          : 5'(!dut.first_q)) + 5'(dut.poll_q))
+  // verilog_format: on
   `FV_LEMMA(lemma_no_writes, !(booting || state == StIdle) || writes_q == '0)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_late,
-      !(bus && dut.poll_q && dut.poll_timeout) || late_q <= ((state == StStart) ? 3'd0 : (state == StDevice) ? 3'd1 : 3'd2))
+      !(bus && dut.poll_q && dut.poll_timeout) || late_q <= ((state == StStart) ? 3'd0 : (state == StDevice)
+          ? 3'd1 : 3'd2))
+  // verilog_format: on
   `FV_LEMMA(lemma_wipe, state != StWipe || (rest_q == 11'(dut.addr_q) - 11'h020 && dut.addr_q < 10'h340))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_loaded,
-      state != StLoad || (dut.addr_q inside {[10'h003 : 10'h015]} && rest_q <= 11'd800 + 11'd8 * 11'(dut.addr_q - 10'd3) + 11'(dut.phase_q) + 11'd152 * 11'(store_o)))
+      state != StLoad || (dut.addr_q inside {[10'h003 : 10'h015]}
+          && rest_q <= 11'd800 + 11'd8 * 11'(dut.addr_q - 10'd3) + 11'(dut.phase_q) + 11'd152 * 11'(store_o)))
+  // verilog_format: on
   `FV_LEMMA(lemma_settle, state != StSettle || rest_q <= 11'd1104)
   `FV_LEMMA(lemma_idle_rest, state != StIdle || rest_q <= 11'd1105)
   `FV_LEMMA(lemma_factory_values, !(boot_o && dut.factory_q) || !rst_settings_no)
@@ -301,81 +343,115 @@ module pmc006_eeprom_fv
   `FV_LEMMA(lemma_blind, !(booting && dut.restore_q) || !sure)
   `FV_LEMMA(lemma_accept, !(booting && sure) || !(dut.copy_q ? copy_ok_q : page_ok_q) || !dut.page_bad_q)
   `FV_LEMMA(lemma_page_bad, !(booting && sure && dut.copy_q) || !page_ok_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_program,
-      !(booting && (state inside {StWipe, StLoad, StSettle} || (dut.copy_q && bus) || (reading && dut.addr_q > 10'h020))) || program_ok_q || dut.program_bad_q)
+      !(booting && (state inside {StWipe, StLoad, StSettle} || (dut.copy_q && bus) || (reading
+          && dut.addr_q > 10'h020))) || program_ok_q || dut.program_bad_q)
+  // verilog_format: on
   `FV_LEMMA(lemma_not_read, !(reading && dut.addr_q == '0) || !dut.page_bad_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_read_ok,
-      !(booting && sure && (state inside {StWipe, StLoad} || (reading && dut.addr_q != '0))) || dut.page_bad_q || (read_ok_q && copy_read_q == dut.copy_q))
+      !(booting && sure && (state inside {StWipe, StLoad} || (reading && dut.addr_q != '0))) || dut.page_bad_q
+          || (read_ok_q && copy_read_q == dut.copy_q))
+  // verilog_format: on
   `FV_LEMMA(lemma_legal, state != StLoad || store_o || dut.page_bad_q == !legal_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_checked,
-      !(booting && sure && (store_o || state == StSettle)) || dut.page_bad_q || (source_ok && copy_read_q == dut.copy_q))
+      !(booting && sure && (store_o || state == StSettle)) || dut.page_bad_q || (source_ok
+          && copy_read_q == dut.copy_q))
+  // verilog_format: on
 
   // bytes
-  assign sum_is_zero = dut.addr_q == '0 || (burn_q && dut.first_q) || (dut.addr_q == 10'h020 && (dut.read_q || burn_q));
+  // verilog_format: off
+  assign sum_is_zero = dut.addr_q == '0 || (burn_q && dut.first_q) || (dut.addr_q == 10'h020 && (dut.read_q
+      || burn_q));
+  // verilog_format: on
   `FV_LEMMA(lemma_sum,
-         !(writing || (reading && state != StStop)) || dut.u_page.sum_q == (sum_is_zero ? '0 : sum_q))
+            !(writing || (reading && state != StStop)) || dut.u_page.sum_q == (sum_is_zero ? '0 : sum_q))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_high,
-      !(state == StData && in_write && !burn_q && dut.addr_q[0] && (dut.addr_q == 10'h005 || dut.addr_q >= 10'h00c)) || (dut.u_page.high_q == high_q && (dut.addr_q != 10'h005 || high_q == '0)))
-  `FV_LEMMA(lemma_master,
-         !(dut.u_master.done_o || dut.u_master.fail_o) || (dut.u_master.begun_q && (bus || state == StFree)))
+      !(state == StData && in_write && !burn_q && dut.addr_q[0] && (dut.addr_q == 10'h005
+          || dut.addr_q >= 10'h00c)) || (dut.u_page.high_q == high_q && (dut.addr_q != 10'h005
+          || high_q == '0)))
+  // verilog_format: on
+  `FV_LEMMA(
+      lemma_master,
+      !(dut.u_master.done_o || dut.u_master.fail_o) || (dut.u_master.begun_q && (bus || state == StFree)))
   `FV_LEMMA(lemma_one_end, !(dut.u_master.done_o && dut.u_master.fail_o))
   `FV_LEMMA(lemma_sent,
-         !(dut.u_master.begun_q && state inside {StDevice, StHigh, StLow, StSource}) || sent_q == dut.out)
+            !(dut.u_master.begun_q && state inside {StDevice, StHigh, StLow, StSource}) || sent_q == dut.out)
   `FV_LEMMA(lemma_device,
-         !(state inside {StDevice, StSource}) || (listen_q && place_q == 2'd0 && !begun_q && !reads_q))
+            !(state inside {StDevice, StSource}) || (listen_q && place_q == 2'd0 && !begun_q && !reads_q))
   `FV_LEMMA(lemma_high_addr, state != StHigh || (listen_q && place_q == 2'd1 && !begun_q && !reads_q))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_low_addr,
-      state != StLow || (listen_q && place_q == 2'd2 && !begun_q && !reads_q && addr_q[9:8] == (dut.addr_q[9:8] | {2{dut.copy_q}})))
+      state != StLow || (listen_q && place_q == 2'd2 && !begun_q && !reads_q
+          && addr_q[9:8] == (dut.addr_q[9:8] | {2{dut.copy_q}})))
   `FV_LEMMA(
       lemma_address,
-      !(state inside {StAgain, StSource, StData}) || addr_q == (dut.copy_q ? {CopyBlock, 5'd0} : 10'd0) + dut.addr_q)
+      !(state inside {StAgain, StSource, StData}) || addr_q == (dut.copy_q ? {CopyBlock, 5'd0}
+          : 10'd0) + dut.addr_q)
+  // verilog_format: on
   `FV_LEMMA(lemma_data, state != StData || (listen_q && place_q == 2'd3 && reads_q == dut.read_q))
   `FV_LEMMA(lemma_begun,
-         !(state == StData && !reads_q && dut.u_master.begun_q) || (begun_q && dut.last_q == whole))
+            !(state == StData && !reads_q && dut.u_master.begun_q) || (begun_q && dut.last_q == whole))
   `FV_LEMMA(lemma_more, !(state == StData && !reads_q && begun_q && !dut.u_master.begun_q) || !whole)
   `FV_LEMMA(lemma_stop,
-         !(in_write && state == StStop && !failed_o) || (listen_q && begun_q && whole && place_q == 2'd3))
+            !(in_write && state == StStop && !failed_o) || (listen_q && begun_q && whole && place_q == 2'd3))
   `FV_LEMMA(lemma_not_acknowledged, !(bus && failed_o) || !listen_q)
   `FV_LEMMA(lemma_start, !begun_q || state inside {StData, StStop})
   `FV_LEMMA(lemma_failed, !(bus && state != StStop) || !failed_o)
   `FV_LEMMA(lemma_polled,
-         !(in_poll && state == StStop) || (dut.retry_q ? !listen_q : (listen_q && place_q == 2'd1)))
+            !(in_poll && state == StStop) || (dut.retry_q ? !listen_q : (listen_q && place_q == 2'd1)))
   `FV_LEMMA(lemma_poll, !in_poll || (written_q && !failed_o && !begun_q))
 
   // addresses
+  // verilog_format: off
   `FV_LEMMA(
       lemma_block,
-      !(in_poll || (in_write && begun_q)) || block_q == (burn_q ? (dut.first_q ? TrailerBlock : pages_q + 1'b1) : dut.copy_q ? CopyBlock : PageBlock))
+      !(in_poll || (in_write && begun_q)) || block_q == (burn_q ? (dut.first_q ? TrailerBlock
+          : pages_q + 1'b1) : dut.copy_q ? CopyBlock : PageBlock))
+  // verilog_format: on
   `FV_LEMMA(lemma_copy_addr, !(bus && !burn_q && (dut.copy_q || writing)) || dut.addr_q <= 10'd32)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_fresh,
-      !(in_write && !begun_q && state != StStop) || dut.addr_q == (!burn_q ? 10'd0 : dut.first_q ? MarkAddr : {pages_q + 1'b1, 5'd0}))
+      !(in_write && !begun_q && state != StStop) || dut.addr_q == (!burn_q ? 10'd0 : dut.first_q ? MarkAddr
+          : {pages_q + 1'b1, 5'd0}))
   `FV_LEMMA(
       lemma_next_page,
-      !((in_poll || (in_write && begun_q && whole)) && burn_q && !dut.first_q) || dut.addr_q == (pages_q == 5'd25 ? EndAddr : {pages_q + 5'd2, 5'd0}))
+      !((in_poll || (in_write && begun_q && whole)) && burn_q && !dut.first_q)
+          || dut.addr_q == (pages_q == 5'd25 ? EndAddr : {pages_q + 5'd2, 5'd0}))
   `FV_LEMMA(
       lemma_same_page,
-      !(state == StData && in_write && burn_q && !(begun_q && whole)) || (dut.first_q ? dut.addr_q == MarkAddr : dut.addr_q[9:5] == pages_q + 1'b1 && dut.addr_q <= MarkAddr))
+      !(state == StData && in_write && burn_q && !(begun_q && whole)) || (dut.first_q ? dut.addr_q == MarkAddr
+          : dut.addr_q[9:5] == pages_q + 1'b1 && dut.addr_q <= MarkAddr))
+  // verilog_format: on
   `FV_LEMMA(lemma_first_mark,
-         !((in_poll || (in_write && begun_q)) && burn_q && dut.first_q) || dut.addr_q == EndAddr)
+            !((in_poll || (in_write && begun_q)) && burn_q && dut.first_q) || dut.addr_q == EndAddr)
   `FV_LEMMA(lemma_pages, !(writing && burn_q && !dut.first_q) || pages_q <= 5'd25)
   `FV_LEMMA(lemma_mark, !(writing && burn_q && !dut.first_q) || mark_clear_q || dut.addr_q == EndAddr)
   `FV_LEMMA(
       lemma_mark_zero,
       !(writing && burn_q && (begun_q || dut.poll_q) && dut.addr_q == EndAddr) || mark_zero_q == dut.first_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_read_start,
-      !(reading && state inside {[StStart : StSource]}) || dut.addr_q == '0 || (dut.addr_q == 10'h020 && !dut.copy_q))
+      !(reading && state inside {[StStart : StSource]}) || dut.addr_q == '0 || (dut.addr_q == 10'h020
+          && !dut.copy_q))
   `FV_LEMMA(
       lemma_read_last,
-      !(reading && state == StData && dut.u_master.begun_q) || dut.last_q == (dut.addr_q inside {10'h01f, MarkAddr}))
+      !(reading && state == StData && dut.u_master.begun_q)
+          || dut.last_q == (dut.addr_q inside {10'h01f, MarkAddr}))
+  // verilog_format: on
   `FV_LEMMA(lemma_read_addr, !(reading && state == StData) || dut.addr_q <= MarkAddr)
-  `FV_LEMMA(lemma_read_stop, !(reading && state == StStop && !failed_o) || dut.addr_q inside {10'h020, EndAddr})
+  `FV_LEMMA(lemma_read_stop,
+            !(reading && state == StStop && !failed_o) || dut.addr_q inside {10'h020, EndAddr})
   `FV_LEMMA(lemma_copy_end, !(reading && dut.copy_q && state == StData) || dut.addr_q <= 10'h01f)
 
   `FV_COVER(seen_boot, booted_q && $past(rst_dut_n) && read_byte && head_ok && addr_q == 10'h001)

@@ -28,8 +28,8 @@ module pmc006_exec_fv
 
   pmc006_exec dut (.*);
 
-  // Cycles since the frame, the acknowledgement or the load; 0: none in progress. A frame is in progress until
-  // its reply, and then, if it is an accepted E, until its instruction is executed.
+  // Cycles since the frame, the acknowledgement or the load; 0: none in progress. A frame is in progress
+  // until its reply, and then, if it is an accepted E, until its instruction is executed.
   logic [3:0] frame_q, program_q, try_q, load_q;
   logic executed, frame_executed_q, stored_q;
 
@@ -42,7 +42,8 @@ module pmc006_exec_fv
       if (frame_i.go || (frame_q != '0 && !reply_sample_o)) frame_q <= frame_q + 1'b1;
       else frame_q <= '0;
       if (instr_ack_o) program_q <= 4'd1;
-      else if (program_q != '0) program_q <= ((executed && cmd_o.source == FromProgram) || cancel_i) ? '0 : program_q + 1'b1;
+      else if (program_q != '0)
+        program_q <= ((executed && cmd_o.source == FromProgram) || cancel_i) ? '0 : program_q + 1'b1;
       if (exec_o && try_accept_i) try_q <= 4'd1;
       else if (try_q != '0) try_q <= (executed && cmd_o.source == FromTry) ? '0 : try_q + 1'b1;
       if (load_i) {load_q, stored_q} <= {4'd1, store_i};
@@ -53,9 +54,12 @@ module pmc006_exec_fv
   `FV_ASSUME(frame_stable, frame_q == '0 || {frame_i.code, frame_i.data} == $past
              ({frame_i.code, frame_i.data}))
   `FV_ASSUME(steps_apart, !(step_i && $past(step_i)))
+  // verilog_format: off
   `FV_ASSUME(
       load_in_boot,
-      !load_i || !(frame_i.go || frame_q != '0 || try_q != '0 || program_q != '0 || instr_req_i || load_q != '0))
+      !load_i || !(frame_i.go || frame_q != '0 || try_q != '0 || program_q != '0 || instr_req_i
+          || load_q != '0))
+  // verilog_format: on
   `FV_ASSUME(boot_without_frames, load_q == '0 || !(frame_i.go || instr_req_i))
   `FV_ASSUME(store_stable, load_q == '0 || store_i == stored_q)
   `FV_ASSUME(try_of_a_frame, !try_accept_i || (exec_o && cmd_o.source == FromFrame && cmd_o.op == I_TRY))
@@ -66,9 +70,12 @@ module pmc006_exec_fv
   `FV_ASSERT(
       frame_once,
       !(executed && cmd_o.source == FromFrame) || (frame_q != '0 && !frame_executed_q && !reply_sample_o))
+  // verilog_format: off
   `FV_ASSERT(
       frame_instruction,
-      !(executed && cmd_o.source == FromFrame) || (cmd_o.data == frame_i.data && cmd_o.op == (frame_i.code[7] ? I_NONE : frame_i.code) && cmd_o.option == '0))
+      !(executed && cmd_o.source == FromFrame) || (cmd_o.data == frame_i.data && cmd_o.op == (frame_i.code[7]
+          ? I_NONE : frame_i.code) && cmd_o.option == '0))
+  // verilog_format: on
   `FV_ASSERT(reply, reply_sample_o == frame_executed_q)
   `FV_ASSERT(program_in_time, program_q <= 4'd5)
   `FV_ASSERT(program_once, !(executed && cmd_o.source == FromProgram) || (program_q == 4'd5 && !cancel_i))

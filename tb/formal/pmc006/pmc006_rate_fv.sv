@@ -93,9 +93,12 @@ module pmc006_rate_fv (
 
   `FV_LEMMA(lemma_run, busy_q ? run_q == dut.run_q : !run_q)
   `FV_LEMMA(lemma_age, !run_q || age_q >= 10'd799)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_planned,
-      !busy_q || (age_q >= 10'd799 ? dut.planned : !dut.planned && dut.u_plan.u_timer.count_q == States[age_q]))
+      !busy_q || (age_q >= 10'd799 ? dut.planned : !dut.planned
+          && dut.u_plan.u_timer.count_q == States[age_q]))
+  // verilog_format: on
   `FV_LEMMA(lemma_ticks, !busy_q || {dut.ticks_q, dut.updates_q} == {ticks_q, updates_q} || age_q == '0)
   `FV_LEMMA(lemma_no_ticks, !busy_q || run_q || {ticks_q, updates_q, accu_q} == '0)
   `FV_LEMMA(lemma_range, ticks_q <= 7'd99 && updates_q <= 7'd99 && accu_q < 20'd1_000_000)
@@ -105,14 +108,17 @@ module pmc006_rate_fv (
   `FV_LEMMA(lemma_left, !busy_q || (left_o == left_q && (endless_i || left_q != '0)))
   `FV_LEMMA(lemma_last, !busy_q || age_q == '0 || dut.last_step_q == last_q)
   `FV_LEMMA(lemma_last_stable, !busy_q || age_q == '0 || us_age_q == 2'd2 || last_q == (left_q == 31'd1))
-`FV_LEMMA(lemma_advance, {advance_o, dut.update_dly_q} == advance_q)
+  `FV_LEMMA(lemma_advance, {advance_o, dut.update_dly_q} == advance_q)
   `FV_LEMMA(lemma_v, v_o == v_q)
 
   `FV_ASSERT(p006_mot_04_begin, t0_o == (busy_q && !run_q && us_i && age_q >= 10'd799))
   `FV_ASSERT(p006_mot_03_step, step_o == (due_q && busy_q && !halt_i))
+  // verilog_format: off
   `FV_ASSERT(
       p006_mot_05_end,
-      !busy_q || motion_end_o == (halt_i || (update_o && end_run_i) || (due_q && left_q == 31'd1 && !endless_i)))
+      !busy_q || motion_end_o == (halt_i || (update_o && end_run_i) || (due_q && left_q == 31'd1
+          && !endless_i)))
+  // verilog_format: on
   `FV_ASSERT(p006_mot_05_count, !(step_o && !endless_i) || left_q != '0)
   `FV_ASSERT(p006_mot_50_update, update_o == (tick && busy_q && ticks_q == 7'd99))
   `FV_ASSERT(p006_mot_51_sample, sample_o == (update_o && updates_q == 7'd99))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_serial_fv: proves the times and the bits of the reply, and that no byte is received during the reply.
+// pmc006_serial_fv: proves the times and the bits of the reply, and that no byte is received during the
+// reply.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none
@@ -47,7 +48,8 @@ module pmc006_serial_fv
   logic [5:0] units_q;
   logic [7:0] sum_q, data_q, data;
 
-  // silence_q: bit times since the last byte plus one half, at most 202; exact if the byte did not end a frame
+  // silence_q: bit times since the last byte plus one half, at most 202; exact if the byte did not end a
+  // frame
   logic bytes_only_q;
   logic [7:0] silence_q;
 
@@ -112,26 +114,36 @@ module pmc006_serial_fv
   assign rx_idle = dut.u_rx.state_q == 0 && dut.u_rx.phase_q == 6'd47 && !dut.u_rx.g_modulus.wrapped_q;
 
   `FV_LEMMA(lemma_range, !active_q || (byte_q <= 4'd8 && bit_q <= 4'd9 && (byte_q != '0 || bit_q >= 4'd8)))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_units,
-      !(active_q || bytes_only_q) || (units_q < BitUnits && !(active_q && units_q[0]) && !(lead && units_q[1])))
+      !(active_q || bytes_only_q) || (units_q < BitUnits && !(active_q && units_q[0]) && !(lead
+          && units_q[1])))
+  // verilog_format: on
   `FV_LEMMA(lemma_ready, !active_q || ready_q)
   `FV_LEMMA(lemma_tick, !(active_q || bytes_only_q) || dut.bit_tick_q == (phase >= BitUnits))
   `FV_LEMMA(
       lemma_phase,
       !(active_q || bytes_only_q) || dut.phase_q == (phase >= BitUnits ? phase - BitUnits : phase + 6'd30))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_silence,
-      !bytes_only_q || (!active_q && silence_q <= 8'd202 && (silence_q == 8'd202 || dut.u_silence.u_timer.count_q == States[silence_q])))
+      !bytes_only_q || (!active_q && silence_q <= 8'd202 && (silence_q == 8'd202
+          || dut.u_silence.u_timer.count_q == States[silence_q])))
+  // verilog_format: on
   `FV_LEMMA(lemma_byte, !active_q || dut.byte_index_q == byte_q)
   `FV_LEMMA(lemma_bit, !active_q || dut.bits_left_q == (byte_q == '0 ? 4'd0 : 4'd9 - bit_q))
   `FV_LEMMA(lemma_data, !active_q || byte_q == '0 || dut.bits_q == 8'({9'h1FF, data_q} >> bit_q))
   `FV_LEMMA(lemma_sum, !active_q || dut.sum_q == ((byte_q == '0 || bit_q != '0) ? sum_q : sum_q - data_q))
   `FV_LEMMA(lemma_valid,
             !dut.valid || dut.u_rx.state_q == 0 && dut.u_rx.phase_q == 6'd47 && !dut.u_rx.g_modulus.wrapped_q)
+  // verilog_format: off
   `FV_LEMMA(
       lemma_rx_start,
-      !lead || rx_idle || (dut.u_rx.state_q == 1 && !dut.u_rx.g_modulus.wrapped_q && 7'(dut.u_rx.phase_q) <= 7'd47 + 7'(units_q) && dut.u_rx.phase_q >= 6'd51 && (units_q < 6'd16 || 7'(dut.u_rx.phase_q) >= 7'd35 + 7'(units_q))))
+      !lead || rx_idle || (dut.u_rx.state_q == 1 && !dut.u_rx.g_modulus.wrapped_q
+          && 7'(dut.u_rx.phase_q) <= 7'd47 + 7'(units_q) && dut.u_rx.phase_q >= 6'd51 && (units_q < 6'd16
+          || 7'(dut.u_rx.phase_q) >= 7'd35 + 7'(units_q))))
+  // verilog_format: on
   `FV_LEMMA(lemma_rx_idle, !active_q || lead || rx_idle)
   `FV_LEMMA(lemma_gate,
             !active_q || (lead && units_q < 6'd8) || (tail && units_q >= 6'd22) || !dut.line_high_q)

@@ -38,7 +38,10 @@ module pmc006_start_check_fv
   assign moves = exec_i && legal_i && !busy_q && !settings_i.free && !locked_i && !ext_event_i && !key_stop_i;
   assign free = exec_i && legal_i && cmd_i.op == I_FREE && cmd_i.data[0];
   assign stops = ext_event_i || stall_stop_i || key_stop_i || free || (exec_i && cmd_i.op == I_ABORT);
-  assign resumes = exec_i && legal_i && cmd_i.op == I_RUN && cmd_i.data[0] && busy_q && endless_q && !ext_event_i && !key_stop_i;
+  // verilog_format: off
+  assign resumes = exec_i && legal_i && cmd_i.op == I_RUN && cmd_i.data[0] && busy_q && endless_q
+      && !ext_event_i && !key_stop_i;
+  // verilog_format: on
   assign ends = exec_i && legal_i && cmd_i.op == I_RUN && !cmd_i.data[0];
 
   // speed_q: register SPEED_MODE

@@ -16,7 +16,8 @@ module ppmc312_fv
   logic [7:0] d_i, auxi;
   logic [3:0] adr;
   logic [2:0] rs, mod;
-  logic pin_rst_n, mode, cs_n, we_n, oe_n, rxd, hsp, evt0_n, evt1_n, alm_n, end_n, epin, epdir, index_n, org_n;
+  logic
+      pin_rst_n, mode, cs_n, we_n, oe_n, rxd, hsp, evt0_n, evt1_n, alm_n, end_n, epin, epdir, index_n, org_n;
   logic fl_n, bl_n, fhl_n, bhl_n, extck, run;
   logic [7:0] d_o;
   logic d_oe, wrq_n, irq_n, txd, snd, exon_n, cclr_n, aclr_n, zclmp_n, cd_n, pout, dir, intlk_n, out_oe;
@@ -82,12 +83,16 @@ module ppmc312_fv
 
   // ---- reset --------------------------------------------------------------------------------------
 
-  `FV_ASSERT(reset_pins,
-             pin_rst_n || ({pout, dir, d_oe, snd, out_oe, d_o} == '0 &&
-             (&{wrq_n, irq_n, txd, exon_n, cclr_n, aclr_n, zclmp_n, cd_n, intlk_n, auxo_n})))
-  `FV_ASSERT(reset_state,
-             pin_rst_n || (!output_on && pos == '0 && dut.status == StatusIni && !dut.host_block.valid &&
-             !dut.rd_any && !dut.u_core.curve.valid))
+  // verilog_format: off
+  `FV_ASSERT(
+      reset_pins,
+      pin_rst_n || ({pout, dir, d_oe, snd, out_oe, d_o} == '0
+          && (&{wrq_n, irq_n, txd, exon_n, cclr_n, aclr_n, zclmp_n, cd_n, intlk_n, auxo_n})))
+  `FV_ASSERT(
+      reset_state,
+      pin_rst_n || (!output_on && pos == '0 && dut.status == StatusIni && !dut.host_block.valid && !dut.rd_any
+          && !dut.u_core.curve.valid))
+  // verilog_format: on
 
   // ---- pulses and switches ------------------------------------------------------------------------
 
@@ -110,13 +115,14 @@ module ppmc312_fv
       {pout_q, dir_q, output_q, start_q, launch_q, fire_q, alarm_q, limit_q} <= '0;
       {ccw_q, zero_q, launched_q, second_q} <= '0;
     end else begin
-      cw_h    <= {cw_h[1:0], fl_n};
-      ccw_h   <= {ccw_h[1:0], bl_n};
+      cw_h <= {cw_h[1:0], fl_n};
+      ccw_h <= {ccw_h[1:0], bl_n};
       alarm_h <= {alarm_h[1:0], alm_n};
       {pout_q, dir_q, output_q, start_q, launch_q, fire_q} <= {pout, dir, output_on, start, launch, fire};
       alarm_q <= alarm_acts || (alarm_q && !start_q);
       limit_q <= !launch_q && (limit_q || (output_q && limit_acts));
-      if (start) {ccw_q, zero_q, launched_q, second_q} <= {block.par[0][6], block.code == I_ZERO, launch, 1'b0};
+      if (start)
+        {ccw_q, zero_q, launched_q, second_q} <= {block.par[0][6], block.code == I_ZERO, launch, 1'b0};
       else if (launch) {launched_q, second_q} <= {1'b1, launched_q};
     end
 
@@ -138,7 +144,7 @@ module ppmc312_fv
   logic [31:0] value_q;
 
   // The parameters of a single step are 0.
-  assign count = {block.par[3], block.par[4], block.par[5], block.par[6]} | 32'(block.code == I_STEP);
+  assign count  = {block.par[3], block.par[4], block.par[5], block.par[6]} | 32'(block.code == I_STEP);
   assign finite = block.code inside {I_MOVE, I_CONST, I_STEP};
 
   always_ff @(posedge clk_i or negedge on)
@@ -156,12 +162,11 @@ module ppmc312_fv
 
   always_ff @(posedge clk_i) left_q <= left;
 
-  `FV_ASSERT(written_count,
-             !on || !launch_q || (endless == endless_q && (endless || left == wanted_q)))
+  `FV_ASSERT(written_count, !on || !launch_q || (endless == endless_q && (endless || left == wanted_q)))
   `FV_ASSERT(count_down, !on || launch_q || left == left_q - 32'(fire_q))
   `FV_ASSERT(count_no_more, !fire || endless || left != '0)
-  `FV_ASSERT(count_or_a_cause,
-             !on || !stop || ($onehot(cause) && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
+  `FV_ASSERT(count_or_a_cause, !on || !stop || ($onehot(cause)
+             && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
   `FV_ASSERT(count_cause_limit, !on || !stop_q || !cause_q.stl || limit_q)
   `FV_ASSERT(count_cause_alarm, !on || !stop_q || !cause_q.als || alarm_q || alarm_acts || multi_q)
   `FV_ASSERT(position_counts_pulses,
@@ -171,50 +176,69 @@ module ppmc312_fv
   logic idle, held, pulses, last;
   logic [2:0] motion_state, move_state;
   instr_info_t info;
-  assign {idle, held, pulses, last} = {motion_state == 3'd0, motion_state == 3'd1, motion_state == 3'd2,
-                                       motion_state == 3'd3};
+  assign {idle, held, pulses, last} = {
+    motion_state == 3'd0, motion_state == 3'd1, motion_state == 3'd2, motion_state == 3'd3
+  };
   assign motion_state = dut.u_core.u_axis.u_motion.state_q;
-  assign move_state   = dut.u_core.u_instr.u_move.state_q;
-  assign info         = instr_info(block.code);
+  assign move_state = dut.u_core.u_instr.u_move.state_q;
+  assign info = instr_info(block.code);
 
-  `FV_ASSERT(lemma_levels,
-             !on || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n} ==
-             {alarm_h[1], cw_h[1], ccw_h[1]}))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_levels,
+      !on
+          || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n}
+              == {alarm_h[1], cw_h[1], ccw_h[1]}))
+  // verilog_format: on
   `FV_ASSERT(lemma_states, !on || motion_state <= 3'd4 && move_state <= 3'd4)
   `FV_ASSERT(lemma_move, !on || (move_state != '0) == (dut.u_core.u_instr.u_exec.state_q == 4'd10))
-  `FV_ASSERT(lemma_fetch,
-             !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q ||
-             dut.u_core.u_instr.u_exec.state_q inside {4'd2, 4'd9})
-  `FV_ASSERT(lemma_copy,
-             !on || dut.u_core.u_instr.u_exec.state_q != 4'd9 || !dut.u_core.u_instr.u_exec.u_fetch.run_q ||
-             dut.u_core.u_instr.u_exec.u_fetch.copy_q)
-  `FV_ASSERT(lemma_started_code, !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q ==
-             info.starts_motion))
-  `FV_ASSERT(lemma_started_op,
-             !on || move_state == '0 || !info.starts_motion ||
-             (dut.u_core.u_instr.u_move.op_o.ccw == block.par[0][6] &&
-             dut.u_core.u_instr.u_move.op_o.zero == (block.code == I_ZERO)))
-  `FV_ASSERT(lemma_held_op,
-             !on || !(held || pulses || last) || (dut.u_core.u_axis.u_motion.op_q.ccw == ccw_q &&
-             dut.u_core.u_axis.u_motion.op_q.zero == (zero_q && !second_q)))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_fetch,
+      !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q
+          || dut.u_core.u_instr.u_exec.state_q inside {4'd2, 4'd9})
+  `FV_ASSERT(
+      lemma_copy,
+      !on || dut.u_core.u_instr.u_exec.state_q != 4'd9 || !dut.u_core.u_instr.u_exec.u_fetch.run_q
+          || dut.u_core.u_instr.u_exec.u_fetch.copy_q)
+  // verilog_format: on
+  `FV_ASSERT(lemma_started_code,
+             !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q == info.starts_motion))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_started_op,
+      !on || move_state == '0 || !info.starts_motion || (dut.u_core.u_instr.u_move.op_o.ccw == block.par[0][6]
+          && dut.u_core.u_instr.u_move.op_o.zero == (block.code == I_ZERO)))
+  `FV_ASSERT(
+      lemma_held_op,
+      !on || !(held || pulses || last) || (dut.u_core.u_axis.u_motion.op_q.ccw == ccw_q
+          && dut.u_core.u_axis.u_motion.op_q.zero == (zero_q && !second_q)))
+  // verilog_format: on
   `FV_ASSERT(lemma_launched, !on || (held ? !launched_q && !second_q : !(pulses || last) || launched_q))
   `FV_ASSERT(lemma_second,
              !on || !(pulses || last) || dir == (ccw_q ^ (zero_q && second_q)) && (zero_q || !second_q))
   `FV_ASSERT(lemma_phase2, !on || !dut.u_core.u_axis.u_motion.phase2_next_q || (last && zero_q && !second_q))
-  `FV_ASSERT(lemma_alarm,
-             !on || !alarm_q || start_q || idle || motion_state == 3'd4 || dut.u_core.u_axis.u_motion.abn_q ||
-             (last && !dut.u_core.u_axis.u_motion.phase2_next_q))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_alarm,
+      !on || !alarm_q || start_q || idle || motion_state == 3'd4 || dut.u_core.u_axis.u_motion.abn_q || (last
+          && !dut.u_core.u_axis.u_motion.phase2_next_q))
+  // verilog_format: on
   `FV_ASSERT(lemma_limit, !on || !(limit_q && pulses) || launch_q)
 
-  `FV_ASSERT(lemma_written_info,
-             !on || dut.u_core.u_instr.u_exec.state_q inside {4'd0, 4'd1, 4'd2} ||
-             dut.u_core.u_instr.u_exec.info == info)
-  `FV_ASSERT(lemma_written_info_in_time,
-             !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q || dut.u_core.u_instr.u_exec.u_fetch.copy_q ||
-             dut.u_core.u_instr.u_exec.u_fetch.at_q < 5'd6 || dut.u_core.u_instr.u_exec.info == info)
-  `FV_ASSERT(lemma_written_no_start,
-             !on || !dut.u_core.u_instr.move || !info.starts_motion || idle)
-  // steps_q: cycles since the last pulse or launch, at most 3. The decision of the sequencer is complete then.
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_written_info,
+      !on || dut.u_core.u_instr.u_exec.state_q inside {4'd0, 4'd1, 4'd2}
+          || dut.u_core.u_instr.u_exec.info == info)
+  `FV_ASSERT(
+      lemma_written_info_in_time,
+      !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q || dut.u_core.u_instr.u_exec.u_fetch.copy_q
+          || dut.u_core.u_instr.u_exec.u_fetch.at_q < 5'd6 || dut.u_core.u_instr.u_exec.info == info)
+  // verilog_format: on
+  `FV_ASSERT(lemma_written_no_start, !on || !dut.u_core.u_instr.move || !info.starts_motion || idle)
+  // steps_q: cycles since the last pulse or launch, at most 3. The decision of the sequencer is complete
+  // then.
   localparam int unsigned Age = ppmc_lfsr_pkg::width(40 - 1);
   logic [1:0] steps_q;
   logic first, zero;
@@ -224,45 +248,63 @@ module ppmc312_fv
     if (!on) steps_q <= '0;
     else if (fire || launch) steps_q <= '0;
     else if (steps_q != '1) steps_q <= steps_q + 2'd1;
-  `FV_ASSERT(lemma_count_zero,
-             !on || !pulses || ((steps_q < 2'd1 || dut.u_core.u_axis.u_motion.u_seq.zero_q == zero) &&
-             (steps_q < 2'd2 || !zero || (dut.u_core.u_axis.u_motion.u_seq.action_q.ends &&
-             dut.u_core.u_axis.u_motion.u_seq.action_q.count)) &&
-             (steps_q < 2'd3 || !zero || dut.u_core.u_axis.u_motion.u_seq.action_q2.ends)))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_count_zero,
+      !on || !pulses || ((steps_q < 2'd1 || dut.u_core.u_axis.u_motion.u_seq.zero_q == zero)
+          && (steps_q < 2'd2 || !zero || (dut.u_core.u_axis.u_motion.u_seq.action_q.ends
+          && dut.u_core.u_axis.u_motion.u_seq.action_q.count)) && (steps_q < 2'd3 || !zero
+          || dut.u_core.u_axis.u_motion.u_seq.action_q2.ends)))
+  // verilog_format: on
   `FV_ASSERT(lemma_count_gap,
              !on || !pulses || first || dut.u_core.u_axis.u_motion.u_interval.age_q == 3'(steps_q) + 3'd1)
-  `FV_ASSERT(lemma_count_first,
-             !on || !pulses || !first || steps_q == '1 || (!dut.u_core.u_axis.u_motion.u_interval.up &&
-             dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q ==
-             (steps_q == 2'd0 ? Age'(1) : steps_q == 2'd1 ? Age'(2) : Age'(4))))
-  `FV_ASSERT(lemma_count_final,
-             !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel ||
-             $onehot(dut.u_core.u_axis.u_motion.decel_cause_q))
-  `FV_ASSERT(lemma_count_ends,
-             !on || !pulses || ((steps_q < 2'd2 || !dut.u_core.u_axis.u_motion.u_seq.action_q.ends ||
-             dut.u_core.u_axis.u_motion.u_seq.action_q.low || zero || dut.u_core.u_axis.u_motion.final_decel) &&
-             (steps_q < 2'd3 || !dut.u_core.u_axis.u_motion.u_seq.action_q2.ends ||
-             dut.u_core.u_axis.u_motion.u_seq.action_q2.low || zero || dut.u_core.u_axis.u_motion.final_decel)))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_count_first,
+      !on || !pulses || !first || steps_q == '1 || (!dut.u_core.u_axis.u_motion.u_interval.up
+          && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == (steps_q == 2'd0 ? Age'(1)
+          : steps_q == 2'd1 ? Age'(2) : Age'(4))))
+  // verilog_format: on
+  `FV_ASSERT(lemma_count_final, !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel || $onehot
+             (dut.u_core.u_axis.u_motion.decel_cause_q))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_count_ends,
+      !on || !pulses || ((steps_q < 2'd2 || !dut.u_core.u_axis.u_motion.u_seq.action_q.ends
+          || dut.u_core.u_axis.u_motion.u_seq.action_q.low || zero || dut.u_core.u_axis.u_motion.final_decel)
+          && (steps_q < 2'd3 || !dut.u_core.u_axis.u_motion.u_seq.action_q2.ends
+          || dut.u_core.u_axis.u_motion.u_seq.action_q2.low || zero
+          || dut.u_core.u_axis.u_motion.final_decel)))
+  // verilog_format: on
   `FV_ASSERT(lemma_count_cause,
-             !on || !(last || motion_state == 3'd4) || dut.u_core.u_axis.u_motion.phase2_next_q ||
-             ($onehot(dut.u_core.u_axis.u_motion.cause_q) &&
-             dut.u_core.u_axis.u_motion.cause_q.nos == zero))
-  `FV_ASSERT(lemma_count_cause_limit,
-             !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.stl || limit_q ||
-             (output_q && limit_acts))
+             !on || !(last || motion_state == 3'd4) || dut.u_core.u_axis.u_motion.phase2_next_q || ($onehot
+             (dut.u_core.u_axis.u_motion.cause_q) && dut.u_core.u_axis.u_motion.cause_q.nos == zero))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_count_cause_limit,
+      !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.stl || limit_q
+          || (output_q && limit_acts))
+  // verilog_format: on
   `FV_ASSERT(lemma_count_abnormal,
              !on || idle || !dut.u_core.u_axis.u_motion.abn_q || alarm_q || alarm_acts || multi_q)
-  `FV_ASSERT(lemma_count_cause_alarm,
-             !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.als || alarm_q ||
-             alarm_acts || multi_q)
-  `FV_ASSERT(lemma_written_move,
-             !on || move_state == '0 || !info.starts_motion || !finite ||
-             (dut.u_core.u_instr.u_move.count_q == count && !dut.u_core.u_instr.u_move.endless_q))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_count_cause_alarm,
+      !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.als || alarm_q
+          || alarm_acts || multi_q)
+  `FV_ASSERT(
+      lemma_written_move,
+      !on || move_state == '0 || !info.starts_motion || !finite || (dut.u_core.u_instr.u_move.count_q == count
+          && !dut.u_core.u_instr.u_move.endless_q))
+  // verilog_format: on
   `FV_ASSERT(lemma_written_endless,
              !on || move_state == '0 || !info.starts_motion || dut.u_core.u_instr.u_move.endless_q == !finite)
-  `FV_ASSERT(lemma_written_held,
-             !on || !held || (dut.u_core.u_instr.u_move.endless_q == endless_q &&
-             (endless_q || dut.u_core.u_instr.u_move.count_q == wanted_q)))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_written_held,
+      !on || !held || (dut.u_core.u_instr.u_move.endless_q == endless_q && (endless_q
+          || dut.u_core.u_instr.u_move.count_q == wanted_q)))
+  // verilog_format: on
 
   `FV_COVER(seen_limit, limit_q && dir_q && output_q)
   `FV_COVER(seen_end, stop && cause.nos)

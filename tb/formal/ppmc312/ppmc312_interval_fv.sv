@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_interval_fv: compares the times of all pulses with sums of the rates. Rates have 3 bits, a base clock
-// has 7/3 cycles (base clock 0), and a pulse has 9 cycles.
+// ppmc312_interval_fv: compares the times of all pulses with sums of the rates. Rates have 3 bits, a base
+// clock has 7/3 cycles (base clock 0), and a pulse has 9 cycles.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -83,13 +83,13 @@ module ppmc312_interval_fv (
 
   `FV_ASSERT(p312_mot_01_first,
              !(moving_q && first_q && !arm_i) || ready_o == (arm_age_q >= 4'd9 && (!external_i || tick)))
-  `FV_ASSERT(p312_mot_01_next,
-             !(moving_q && !first_q && !arm_i) || ready_o == (passed && age_q >= 4'd3))
+  `FV_ASSERT(p312_mot_01_next, !(moving_q && !first_q && !arm_i) || ready_o == (passed && age_q >= 4'd3))
 
   // Width: ten cycles, or half of the interval, rounded down to ticks, if this is shorter
   logic high_q;
   always_ff @(posedge clk_i)
-    high_q <= rst_ni && (fire_i || (high_q && age_q < 4'd9 && !(tick && ticks_q + 3'd1 >= {1'b0, rate_q[2:1]})));
+    high_q <= rst_ni &&
+        (fire_i || (high_q && age_q < 4'd9 && !(tick && ticks_q + 3'd1 >= {1'b0, rate_q[2:1]})));
 
   `FV_ASSERT(p312_mot_03_width, high_o == high_q)
   `FV_ASSERT(p312_mot_03_never_merged, !(fire_i && high_o))

@@ -9,18 +9,18 @@ module ppmc312_mailbox_fv
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input wire logic         clk_i,
-    input wire logic         ready_i,
-    input wire logic   [2:0] rs_i,
-    input wire logic         cs_ni,
-    input wire logic         we_ni,
-    input wire logic         oe_ni,
-    input wire logic   [7:0] d_i,
-    input wire logic   [4:0] blk_addr_i,
-    input wire logic         blk_done_i,
-    input wire logic         rd_any_i,
-    input wire logic   [5:0] rd_size_i,
-    input wire logic   [7:0] rd_data_i
+    input wire logic       clk_i,
+    input wire logic       ready_i,
+    input wire logic [2:0] rs_i,
+    input wire logic       cs_ni,
+    input wire logic       we_ni,
+    input wire logic       oe_ni,
+    input wire logic [7:0] d_i,
+    input wire logic [4:0] blk_addr_i,
+    input wire logic       blk_done_i,
+    input wire logic       rd_any_i,
+    input wire logic [5:0] rd_size_i,
+    input wire logic [7:0] rd_data_i
 );
 
   localparam int unsigned Space = 3;  // samples between two strobes
@@ -75,9 +75,9 @@ module ppmc312_mailbox_fv
 
   `FV_ASSERT(p312_par_05_complete, host_block_o.valid == full_q)
   `FV_ASSERT(p312_par_04_size, !full_q || (host_block_o.size == size_q && gone_q == size_q))
-  `FV_ASSERT(p312_par_05_bytes,
-             !stores || (dut.u_window.we_i && dut.u_window.waddr_i == at_q[4:0] &&
-             dut.u_window.wdata_i == wr_data))
+  `FV_ASSERT(
+      p312_par_05_bytes,
+      !stores || (dut.u_window.we_i && dut.u_window.waddr_i == at_q[4:0] && dut.u_window.wdata_i == wr_data))
   `FV_ASSERT(p312_par_06_unchanged, dut.u_window.we_i == stores)
   `FV_ASSERT(p312_par_04_logical_order, dut.u_window.raddr_i == 5'd31 - blk_addr_i)
   `FV_ASSERT(lemma_pointer, at_q == dut.at_q && armed_q == dut.armed_q && at_q <= 6'd32)
@@ -106,7 +106,7 @@ module ppmc312_mailbox_fv
     if (!rst_ni) {free_q, strobe_q} <= {3'd3, 1'b0};
     else begin
       strobe_q <= read || write;
-      free_q <= (read || write) ? '0 : (free_q < 3'(Space)) ? free_q + 3'd1 : free_q;
+      free_q   <= (read || write) ? '0 : (free_q < 3'(Space)) ? free_q + 3'd1 : free_q;
     end
   `FV_ASSUME(pause_between_strobes, !(read && !strobe_q) || free_q == 3'(Space))
   `FV_ASSUME(one_kind_of_strobe, !(read && strobe_q) || $past(read))
@@ -141,18 +141,20 @@ module ppmc312_mailbox_fv
 
   `FV_ASSERT(p312_par_07_left, dut.left_q == left_q && open_q == (left_q != '0))
   `FV_ASSERT(p312_par_07_order, !open_q || rd_addr_o == 5'(left_q - 6'd1))
-  `FV_ASSERT(p312_par_07_byte_in_time,
-             !(rd_show && open_q && dut.rd_rs == 3'd7) ||
-             (addr1_q == rd_addr_o && addr2_q == rd_addr_o && dut.rd_data == rd_data_i))
+  // verilog_format: off
+  `FV_ASSERT(
+      p312_par_07_byte_in_time,
+      !(rd_show && open_q && dut.rd_rs == 3'd7) || (addr1_q == rd_addr_o && addr2_q == rd_addr_o
+          && dut.rd_data == rd_data_i))
+  // verilog_format: on
   `FV_ASSERT(p312_par_07_rar, dut.rd_rs != 3'd3 || dut.rd_data == 8'h40 - 8'(left_q))
   `FV_ASSERT(p312_par_08_read_once, rd_done_o == last)
   `FV_ASSERT(loads_one_report, !rd_load_o || (rd_any_i && !loaded_q))
   `FV_ASSERT(p312_par_08_stays_closed, !open_q || since_q == 4'd8)
   `FV_ASSERT(p312_par_08_ready_again, pause_q < 5'd18)
   `FV_ASSERT(p312_par_01_csr, dut.rd_rs != 3'd0 || dut.rd_data[3:2] == {closed, !open_q})
-  `FV_ASSERT(p312_par_02_irq,
-             !$past(rst_ni) || irq_no == !$past((dut.enable_write_q && !closed) ||
-                                               (dut.enable_read_q && open_q)))
+  `FV_ASSERT(p312_par_02_irq, !$past(rst_ni) || irq_no == !$past
+             ((dut.enable_write_q && !closed) || (dut.enable_read_q && open_q)))
   `FV_COVER(seen_block, full_q && size_q == 6'd2)
   `FV_COVER(seen_report, rd_done_o)
 

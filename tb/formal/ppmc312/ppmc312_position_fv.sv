@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_position_fv: compares both positions with signed sums of pulses and edges, and the monitors with the
-// difference of the positions.
+// ppmc312_position_fv: compares both positions with signed sums of pulses and edges, and the monitors
+// with the difference of the positions.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -87,10 +87,13 @@ module ppmc312_position_fv (
     `FV_ASSERT(p312_mon_02_inside, young_q < 3'd3 || !known_q || dut.inside_q[n] == inside_q)
   end
   `FV_ASSERT(lemma_difference, young_q < 3'd1 || dut.diff_q == difference_q)
-  `FV_ASSERT(lemma_size,
-             young_q < 3'd2 || (dut.negative_q == difference_q2[31] &&
-             dut.size_q == (difference_q2[15:0] ^ {16{difference_q2[31]}}) &&
-             dut.large_q == (difference_q2[31:16] != {16{difference_q2[31]}})))
+  // verilog_format: off
+  `FV_ASSERT(
+      lemma_size,
+      young_q < 3'd2 || (dut.negative_q == difference_q2[31]
+          && dut.size_q == (difference_q2[15:0] ^ {16{difference_q2[31]}})
+          && dut.large_q == (difference_q2[31:16] != {16{difference_q2[31]}})))
+  // verilog_format: on
   `FV_ASSERT(lemma_settle, dut.settle_q == ((rest_q >= 3'd4) ? 4'hf : ~(4'hf << rest_q[1:0])))
   `FV_ASSERT(p312_mon_03_standstill, dut.evaluate == {1'b1, rest_q >= 3'd4 && !output_i})
   `FV_ASSERT(p312_mon_06_clamp, !coupled_o || (window_on_o[0] && rest_q >= 3'd4 && !output_i))

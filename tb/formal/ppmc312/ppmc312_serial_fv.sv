@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_fv: proves the connections of the blocks of the station: a block that the core reads is not
-// changed, and each reply has a frame. Characters are any bytes, at least 9 cycles apart, and a bit has 2 cycles.
+// ppmc312_serial_fv: proves the connections of the blocks of the station: a block that the core reads is
+// not changed, and each reply has a frame. Characters are any bytes, at least 9 cycles apart, and a bit has
+// 2 cycles.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -9,15 +10,15 @@ module ppmc312_serial_fv
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input wire logic         clk_i,
-    input wire logic         ready_i,
-    input wire logic         enable_i,
-    input wire logic [3:0]   adr_i,
-    input wire logic         rxd_i,
-    input wire host_result_t host_result_i,
-    input wire logic [7:0]   rd_data_i,
-    input wire status_e      status_i,
-    input wire poll_result_t poll_result_i
+    input wire logic               clk_i,
+    input wire logic               ready_i,
+    input wire logic               enable_i,
+    input wire logic         [3:0] adr_i,
+    input wire logic               rxd_i,
+    input wire host_result_t       host_result_i,
+    input wire logic         [7:0] rd_data_i,
+    input wire status_e            status_i,
+    input wire poll_result_t       poll_result_i
 );
 
   logic txd_o, snd_o, report_take_o;
@@ -48,9 +49,12 @@ module ppmc312_serial_fv
   `FV_ASSUME(stays_ready, ready_i || !$past(rst_ni && ready_i))
   `FV_ASSUME(executes_a_valid_block, !host_result_i.valid || host_block_o.valid)
 
-  `FV_ASSUME(result_of_a_host_block,
-             !$past(host_result_i.valid) || host_result_i.code[7:4] != 4'hf ||
-             host_result_i.code[3:0] inside {4'd0, 4'd1, 4'd2, 4'd5, 4'd6, 4'd7})
+  // verilog_format: off
+  `FV_ASSUME(
+      result_of_a_host_block,
+      !$past(host_result_i.valid) || host_result_i.code[7:4] != 4'hf
+          || host_result_i.code[3:0] inside {4'd0, 4'd1, 4'd2, 4'd5, 4'd6, 4'd7})
+  // verilog_format: on
 
   logic frame, owed_q, executed_q, valid_q, snd_q;
   logic [5:0] size_q;
@@ -70,8 +74,7 @@ module ppmc312_serial_fv
 
   `FV_ASSERT(p312_gen_04_block_stands, !(host_block_o.valid && block_write_o.we))
   `FV_ASSERT(p312_gen_04_size_stands, !(host_block_o.valid && valid_q) || host_block_o.size == size_q)
-  `FV_ASSERT(p312_gen_04_valid_until_executed,
-             !valid_q || host_block_o.valid || $past(host_result_i.valid))
+  `FV_ASSERT(p312_gen_04_valid_until_executed, !valid_q || host_block_o.valid || $past(host_result_i.valid))
   `FV_ASSERT(runs_once, !host_block_o.valid || (owed_q && !executed_q))
   `FV_ASSERT(p312_ser_19_reply_has_a_frame, !snd_o || owed_q)
   `FV_ASSERT(p312_ser_19_one_frame, !(frame && owed_q))

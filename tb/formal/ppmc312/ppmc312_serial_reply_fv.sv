@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_serial_reply_fv: proves that each frame has exactly one reply, and compares the reply with the tables
-// of the rules.
+// ppmc312_serial_reply_fv: proves that each frame has exactly one reply, and compares the reply with the
+// tables of the rules.
 `include "ppmc_fv.svh"
 `default_nettype none
 
@@ -9,18 +9,18 @@ module ppmc312_serial_reply_fv
   import ppmc312_link_pkg::*;
   import ppmc312_serial_pkg::*;
 (
-    input wire logic         clk_i,
-    input wire logic         poll_i,
-    input wire logic         run_i,
-    input wire logic         fault_i,
-    input wire logic         unknown_code_i,
-    input wire logic [7:0]   code_i,
-    input wire logic         framing_i,
-    input wire logic         overrun_i,
-    input wire status_e      status_i,
-    input wire poll_result_t poll_result_i,
-    input wire host_result_t host_result_i,
-    input wire logic         sent_i
+    input wire logic               clk_i,
+    input wire logic               poll_i,
+    input wire logic               run_i,
+    input wire logic               fault_i,
+    input wire logic               unknown_code_i,
+    input wire logic         [7:0] code_i,
+    input wire logic               framing_i,
+    input wire logic               overrun_i,
+    input wire status_e            status_i,
+    input wire poll_result_t       poll_result_i,
+    input wire host_result_t       host_result_i,
+    input wire logic               sent_i
 );
 
   logic busy_o, report_take_o, blk_valid_o, send_o;
@@ -125,7 +125,8 @@ module ppmc312_serial_reply_fv
     endcase
     unique case (class_n)
       4'd1: item = 8'h46;
-      4'd2: item = (poll_result_i.trigger_result == FailEvent) ? 8'h4a :
+      4'd2:
+      item = (poll_result_i.trigger_result == FailEvent) ? 8'h4a :
           (poll_result_i.trigger_result == FailOverride) ? 8'h4b :
           (poll_result_i.trigger_result == DoneOverride) ? 8'h28 : 8'h29;
       4'd3: item = 8'h22;
@@ -160,7 +161,7 @@ module ppmc312_serial_reply_fv
           expected.data  = {poll_result_i.data, 7'd0, poll_result_i.discarded, item};
         end
       end
-      Fault: expected.data[0] = 8'h41;
+      Fault:   expected.data[0] = 8'h41;
       Unknown: expected.data[0] = 8'h47;
       default:
       if (!info_i.local_read) begin
@@ -205,14 +206,21 @@ module ppmc312_serial_reply_fv
     for (int unsigned n = 0; n < 3; n++)
       used[n] = (3'(n) < expected_q.count && !expected_q.from_response) ? 8'hff : 8'h00;
 
-  `FV_ASSUME(result_of_a_host_block,
-             !result_q || !fails || host_result_i.code inside {8'hf0, 8'hf1, 8'hf2, 8'hf5, 8'hf6, 8'hf7, I_EVT_SET})
-  `FV_ASSERT(p312_ser_20_kind,
-             !send_o || {reply_o.kind, reply_o.count, reply_o.from_response} ==
-             {expected_q.kind, expected_q.count, expected_q.from_response})
+  `FV_ASSUME(
+      result_of_a_host_block,
+      !result_q || !fails || host_result_i.code inside {8'hf0, 8'hf1, 8'hf2, 8'hf5, 8'hf6, 8'hf7, I_EVT_SET})
+  // verilog_format: off
+  `FV_ASSERT(
+      p312_ser_20_kind,
+      !send_o
+          || {reply_o.kind, reply_o.count, reply_o.from_response}
+              == {expected_q.kind, expected_q.count, expected_q.from_response})
+  // verilog_format: on
   `FV_ASSERT(p312_ser_20_data, !send_o || (reply_o.data & used) == (expected_q.data & used))
-  `FV_ASSERT(p312_ser_45_register, dut.error_q == 4'd0 ? registered_q == '0 : registered_q == {4'h4, dut.error_q})
-  `FV_COVER(seen_error_read, send_o && expected_q.data[0] == 8'h44 && expected_q.kind == ReplyData && code_i == 8'h4e)
+  `FV_ASSERT(p312_ser_45_register,
+             dut.error_q == 4'd0 ? registered_q == '0 : registered_q == {4'h4, dut.error_q})
+  `FV_COVER(seen_error_read,
+            send_o && expected_q.data[0] == 8'h44 && expected_q.kind == ReplyData && code_i == 8'h4e)
   `FV_COVER(seen_poll, sent_i && owed_q == Poll)
   `FV_COVER(seen_unknown, sent_i && owed_q == Unknown)
 

@@ -41,7 +41,7 @@ module ppmc312_stage_table_fv (
   logic [1:0][1:0] pulses_h;  // [n]: word n + 1 cycles ago
   logic [1:0] reads_a, reads_b;
 
-  assign hit_rate = we_rate_i && waddr_i == stage_i;
+  assign hit_rate   = we_rate_i && waddr_i == stage_i;
   assign hit_pulses = we_pulses_i && {wside_i, waddr_i} == {stage_side_i, stage_i};
 
   always_ff @(posedge clk_i) begin

@@ -6,24 +6,24 @@
 module ppmc312_stage_builder
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic                clk_i,
-    input  wire logic                rst_ni,
-    input  wire logic                start_i,
-    input  wire curve_t              curve_i,
-    output logic                     busy_o,
-    output logic                     too_few_pulses_o,
-    output table_write_t             table_write_o,
-    output logic              [ 1:0] begins_o,
-    input  wire logic         [ 6:0] first_acc_i,
-    input  wire logic         [ 6:0] first_dec_i,
-    output logic                     op_start_o,
-    output logic                     op_mul_o,
-    output logic              [ 5:0] op_steps_o,
-    output logic              [23:0] op_lo_o,
-    output logic              [39:0] word_o,
-    input  wire logic                op_busy_i,
-    input  wire logic         [39:0] hi_i,
-    input  wire logic         [23:0] lo_i
+    input  wire logic           clk_i,
+    input  wire logic           rst_ni,
+    input  wire logic           start_i,
+    input  wire curve_t         curve_i,
+    output logic                busy_o,
+    output logic                too_few_pulses_o,
+    output table_write_t        table_write_o,
+    output logic         [ 1:0] begins_o,
+    input  wire logic    [ 6:0] first_acc_i,
+    input  wire logic    [ 6:0] first_dec_i,
+    output logic                op_start_o,
+    output logic                op_mul_o,
+    output logic         [ 5:0] op_steps_o,
+    output logic         [23:0] op_lo_o,
+    output logic         [39:0] word_o,
+    input  wire logic           op_busy_i,
+    input  wire logic    [39:0] hi_i,
+    input  wire logic    [23:0] lo_i
 );
 
   logic [2:0] left_q;
@@ -35,10 +35,10 @@ module ppmc312_stage_builder
   assign {bad, begins, word} = '0;  // so that a cover needs no search
 `endif
 
-  assign busy_o        = left_q != '0;
-  assign table_write_o = word_q;
-  assign begins_o      = begins_q & {2{word_q.we_rate}};
-  assign too_few_pulses_o = bad_q;
+  assign busy_o                                              = left_q != '0;
+  assign table_write_o                                       = word_q;
+  assign begins_o                                            = begins_q & {2{word_q.we_rate}};
+  assign too_few_pulses_o                                    = bad_q;
   assign {op_start_o, op_mul_o, op_steps_o, op_lo_o, word_o} = '0;
 
   always_ff @(posedge clk_i or negedge rst_ni)

@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// ppmc312_stage_plan, stub for the proofs of the whole part: it is busy for three cycles, and then outputs any
-// plan, which is stable until the next start. It does not use the arithmetic.
+// ppmc312_stage_plan, stub for the proofs of the whole part: it is busy for three cycles, and then
+// outputs any plan, which is stable until the next start. It does not use the arithmetic.
 `default_nettype none
 
 module ppmc312_stage_plan
   import ppmc312_stage_pkg::*;
 (
-    input  wire logic             clk_i,
-    input  wire logic             rst_ni,
-    input  wire logic             start_i,
-    input  wire logic             ramp_i,
-    input  wire logic             endless_i,
-    input  wire logic      [15:0] rate_i,
-    input  wire logic      [31:0] count_i,
-    input  wire logic      [ 6:0] first_acc_i,
-    input  wire logic      [ 6:0] first_dec_i,
-    output logic                  busy_o,
-    output logic                  both_o,
-    output logic           [ 6:0] addr_o,
-    input  wire logic      [15:0] table_rate_i,
-    input  wire logic      [23:0] table_acc_i,
-    input  wire logic      [23:0] table_dec_i,
-    output target_t               target_o,
-    output logic                  starts_with_accel_o,
-    output logic           [ 7:0] kind_o,
-    output logic           [23:0] dec_pulses_o,
-    output ramp_pos_t             decel_start_o,
-    output logic                  op_start_o,
-    output logic                  op_mul_o,
-    output logic           [23:0] op_lo_o,
-    output logic           [24:0] operand_o,
-    input  wire logic             op_busy_i,
-    input  wire logic      [23:0] lo_i
+    input  wire logic        clk_i,
+    input  wire logic        rst_ni,
+    input  wire logic        start_i,
+    input  wire logic        ramp_i,
+    input  wire logic        endless_i,
+    input  wire logic [15:0] rate_i,
+    input  wire logic [31:0] count_i,
+    input  wire logic [ 6:0] first_acc_i,
+    input  wire logic [ 6:0] first_dec_i,
+    output logic             busy_o,
+    output logic             both_o,
+    output logic      [ 6:0] addr_o,
+    input  wire logic [15:0] table_rate_i,
+    input  wire logic [23:0] table_acc_i,
+    input  wire logic [23:0] table_dec_i,
+    output target_t          target_o,
+    output logic             starts_with_accel_o,
+    output logic      [ 7:0] kind_o,
+    output logic      [23:0] dec_pulses_o,
+    output ramp_pos_t        decel_start_o,
+    output logic             op_start_o,
+    output logic             op_mul_o,
+    output logic      [23:0] op_lo_o,
+    output logic      [24:0] operand_o,
+    input  wire logic        op_busy_i,
+    input  wire logic [23:0] lo_i
 );
 
   typedef struct packed {

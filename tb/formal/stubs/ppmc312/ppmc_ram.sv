@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc_ram, stub for the proofs of the whole PPMC-312, which hold for any RAM contents: rdata_o is an
-// unconstrained word in every cycle. For covers, the RAM of the write window (5 bits of address) is real, and the
-// words of the others are 0, so that a cover needs no search. ppmc_ram_fv proves the real RAM.
+// unconstrained word in every cycle. For covers, the RAM of the write window (5 bits of address) is real,
+// and the words of the others are 0, so that a cover needs no search. ppmc_ram_fv proves the real RAM.
 `default_nettype none
 
 module ppmc_ram #(
@@ -17,7 +17,7 @@ module ppmc_ram #(
 );
 `ifdef FV_COVERS
   if (AddrBits == 5) begin : g_real
-    logic [Width-1:0] memory[2**AddrBits];
+    logic [Width-1:0] memory [2**AddrBits];
     logic [Width-1:0] read_q;
     always_ff @(posedge clk_i) begin
       if (we_i) memory[waddr_i] <= wdata_i;
