@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -138,21 +137,24 @@ def data(part: WebPart) -> dict[str, Any]:
     }
 
 
-def _script(path: Path, room: str, key: str, value: object) -> None:
+def put(path: Path, content: bytes) -> None:
+    """Write a file unless it has this content already: another process may be reading it."""
     path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.is_file() or path.read_bytes() != content:
+        path.write_bytes(content)
+
+
+def _script(path: Path, room: str, key: str, value: object) -> None:
     text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-    path.write_text(
-        f"((globalThis.openppmc??={{}}).{room}??={{}})[{json.dumps(key)}]={text};\n", encoding="utf-8"
-    )
+    put(path, f"((globalThis.openppmc??={{}}).{room}??={{}})[{json.dumps(key)}]={text};\n".encode())
 
 
 def export(name: str, out: Path = PLAYGROUND) -> None:
     """Write a module to the playground's folder; for a module of the page, also the tables of its part."""
-    built = wasm.build(name)
+    built = wasm.build(name).read_bytes()
     module = f"wasm/{name}.wasm"
-    (out / "wasm").mkdir(parents=True, exist_ok=True)
-    shutil.copy(built, out / module)
-    _script(out / f"{module}.js", "wasm", module, base64.b64encode(built.read_bytes()).decode())
+    put(out / module, built)
+    _script(out / f"{module}.js", "wasm", module, base64.b64encode(built).decode())
     if name in WEB_PARTS:
         _script(out / f"parts/{name}.js", "data", name, data(WEB_PARTS[name]))
 
@@ -172,4 +174,4 @@ def all_parts() -> None:
         {"name": name, "title": part.title, "number": PARTS[name].number} for name, part in WEB_PARTS.items()
     ]
     text = json.dumps(known, ensure_ascii=False)
-    (PLAYGROUND / "parts.js").write_text(f"(globalThis.openppmc??={{}}).parts={text};\n", encoding="utf-8")
+    put(PLAYGROUND / "parts.js", f"(globalThis.openppmc??={{}}).parts={text};\n".encode())

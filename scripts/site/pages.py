@@ -59,5 +59,5 @@ def _made() -> Path:
     node("npx", "tsc", "--noEmit")
     node("node", "build.mjs", str(export.PLAYGROUND))
     export.all_parts()
-    shutil.copy(SITE / "index.html", export.PLAYGROUND)
+    export.put(export.PLAYGROUND / "index.html", (SITE / "index.html").read_bytes())
     return export.PLAYGROUND
