@@ -4,7 +4,8 @@
 // Timing: the bus uses ticks with the frequency 4 * I2C_HZ, see ppmc_i2c_master. A byte to be written is
 //         sampled at the tick at which its first bit begins. During the boot, the parameter page is first
 //         checked, then loaded into the registers; each pass takes eight cycles per byte. If the page is
-//         invalid, its copy is read and used instead.
+//         invalid, its copy is read and used instead. A save or restore writes the copy first, or the page if
+//         page_first_q is 1: the page may be invalid, and the copy is valid. first_q: first write of a job.
 `include "ppmc_assert.svh"
 `default_nettype none
 
