@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from cocotb_tests.harness import directed
+from cocotb_tests.harness.bus import DRR
 from cocotb_tests.ppmc312.blocks import TF
+from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.messages import message, stopped
 from openppmc.model.ppmc312.codes import SPONTANEOUS, Answer, Code
@@ -23,6 +25,16 @@ async def encoder(host: Host, count: int) -> None:
         await host.pause(2)
         await host.pins(epin=0)
         await host.pause(2)
+
+
+async def encode_reports(host: Host) -> list[str]:
+    """Read all responses; return the values of the reports of the encode monitor, 01 for outside."""
+    values = []
+    while not await host.quiet(200):
+        *_, code, value = (await host.response()).split()
+        if int(code, 16) == Answer.ENCODE_CHANGE:
+            values.append(value)
+    return values
 
 
 @directed("P312-CMD-42", "P312-CMD-43", "P312-MON-01", "P312-MOT-05", "P312-GEN-03")
@@ -138,6 +150,44 @@ async def p312_reports_that_vanish_and_that_stay(dut: Any) -> None:
         message(Code.ENCODE),
     ]
     assert await host.quiet()
+
+
+@directed("P312-RSP-22", "P312-MON-05")
+async def p312_return_as_the_report_is_loaded(dut: Any) -> None:
+    """The distance returns into the window at each cycle around the end of a read, which loads the report."""
+    counts = set()
+    for delay in range(1, 20):
+        host = await Host.start(dut, message(Code.ENCODE, "03 0002"))
+        await host.issue(message(Code.VERSION))
+        await host.wait()
+        await encoder(host, 3)
+        await host.pause(20)
+        for _ in message(Code.VERSION, "12").split()[1:]:
+            await host.read(DRR)
+        strobe = {0: {"cs_n": 0, "oe_n": 0, "rs": DRR}, 5: {"cs_n": 1, "oe_n": 1}}
+        edge = {delay: {"epin": 1, "epdir": 1}, delay + 4: {"epin": 0}}
+        for cycle in range(40):
+            host.bench.set(**strobe.get(cycle, {}), **edge.get(cycle, {}))
+            await host.pause(1)
+        reports = await encode_reports(host)
+        assert reports in ([], ["01", "00"]), f"{reports} at delay {delay}"
+        counts.add(len(reports))
+    assert counts == {0, 2}
+
+
+@directed("P312-MON-05", "P312-RSP-22")
+async def p312_a_short_departure_is_reported_as_one(dut: Any) -> None:
+    """With RES = 0, pulse 3 leaves the window, and an encoder edge at each cycle around it returns into it."""
+    counts = set()
+    for delay in range(-4, 12):
+        host = await Host.start(dut, *TF, message(Code.ENCODE, "01 0002"))
+        await host.issue(message(Code.CONSTANT, "00 0190 00000003"))
+        await host.bench.until(await host.pulse(2) + 0x190 * TICK + delay)
+        await encoder(host, 1)
+        reports = await encode_reports(host)
+        assert reports in ([], ["01"]), f"{reports} at delay {delay}"
+        counts.add(len(reports))
+    assert counts == {0, 1}
 
 
 @directed("P312-MON-03", "P312-MON-04")

@@ -3,8 +3,8 @@
 //         position is inside or outside the range.
 // Rules:  P312-MON-05, P312-RSP-22, P312-CMD-02/03.
 // Timing: pending_o follows inside_i by two cycles.
-// Note:   a report is pending while the state (inside, outside) differs from the state in the report that the
-//         host has read last.
+// Note:   a report is pending while the state (inside, outside) differs from the value in the report that the
+//         host has read last. Its value is the other one, even if the state changes again before the load.
 `default_nettype none
 
 module ppmc312_window_monitor (
@@ -23,45 +23,41 @@ module ppmc312_window_monitor (
     input  wire logic read_i       // strobe: the report has been read; may coincide with load_i
 );
 
-  logic repeat_q, reported_q, loaded_q, loaded_value_q, disabled_pending_q, restarted_q;
+  // reported_q: the value that the host has read last
+  logic repeat_q, outside_q, reported_q, loaded_q, disabled_pending_q, restarted_q;
 
-  assign outside_o = enabled_o && value_o;
+  assign outside_o = enabled_o && outside_q;
+  assign value_o = !reported_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       enabled_o <= 1'b0;
-      repeat_q  <= 1'b0;
-      value_o   <= 1'b0;
-      reported_q    <= 1'b0;
-      loaded_q  <= 1'b0;
-      loaded_value_q   <= 1'b0;
-      disabled_pending_q    <= 1'b0;
-      pending_o    <= 1'b0;
-      restarted_q   <= 1'b0;
+      repeat_q <= 1'b0;
+      outside_q <= 1'b0;
+      reported_q <= 1'b0;
+      loaded_q <= 1'b0;
+      disabled_pending_q <= 1'b0;
+      pending_o <= 1'b0;
+      restarted_q <= 1'b0;
     end else begin
       restarted_q <= set_i;  // inside_i is not valid for the new range yet
-      if (load_i) begin
-        loaded_q <= !read_i;
-        loaded_value_q <= value_o;
-        disabled_pending_q <= 1'b0;
-        if (read_i) reported_q <= value_o;
-      end else if (read_i) begin
-        loaded_q   <= 1'b0;
-        reported_q <= loaded_value_q;
-      end
+      loaded_q <= (loaded_q || load_i) && !read_i;
+      if (load_i) disabled_pending_q <= 1'b0;
+      if (read_i) reported_q <= value_o;
       if (set_i) begin
         enabled_o <= enable_i;
-        repeat_q  <= repeat_i;
-        value_o   <= 1'b0;
-        reported_q    <= 1'b0;
-        disabled_pending_q    <= 1'b0;
-        pending_o    <= 1'b0;
+        repeat_q <= repeat_i;
+        outside_q <= 1'b0;
+        // A report that is loaded keeps its value until it has been read.
+        if (!(loaded_q || load_i) || read_i) reported_q <= 1'b0;
+        disabled_pending_q <= 1'b0;
+        pending_o <= 1'b0;
       end else begin
-        if (enabled_o && evaluate_i && !restarted_q) value_o <= !inside_i;
-        pending_o <= !load_i && !loaded_q && (disabled_pending_q || (enabled_o && value_o != reported_q));
-        if (enabled_o && !repeat_q && value_o != reported_q && !loaded_q) begin
+        if (enabled_o && evaluate_i && !restarted_q) outside_q <= !inside_i;
+        pending_o <= !load_i && !loaded_q && (disabled_pending_q || (enabled_o && outside_q != reported_q));
+        if (enabled_o && !repeat_q && outside_q != reported_q && !loaded_q) begin
           enabled_o <= 1'b0;
-          disabled_pending_q    <= !load_i;
+          disabled_pending_q <= !load_i;
         end
       end
     end

@@ -76,7 +76,7 @@ class Monitor:
         self.enabled = self.auto = self.clamps = False
         self.range = 0
         self.out_of_range = False
-        self._reported = self._loaded_state = self._report_pending = False
+        self._reported = self._loaded_value = self._report_pending = False
         self.effective_range = 0
         self._report_from = self._evaluate_from = 0
         responses.live_content[kind] = self._block
@@ -92,8 +92,9 @@ class Monitor:
         return loaded is not None and loaded.kind == self.kind
 
     def _block(self) -> bytes:
-        self._loaded_state, self._report_pending = self.out_of_range, False
-        return block(SPONTANEOUS, self._code, self._loaded_state)
+        """Return the report of the change, even if the distance has changed again since (P312-RSP-22)."""
+        self._loaded_value, self._report_pending = not self._reported, False
+        return block(SPONTANEOUS, self._code, self._loaded_value)
 
     def set_up(self, t: int, flags: int, distance: int) -> None:
         """Execute instruction 02 or 03 with legal parameters."""
@@ -124,7 +125,7 @@ class Monitor:
 
     def was_read(self, t: int) -> None:
         """Process the event that the host has read a report of this monitor."""
-        self._reported = self._loaded_state
+        self._reported = self._loaded_value
         self._report_from = t + 1
 
 
