@@ -74,6 +74,7 @@ class Target:
         queue: True if the axes have the method `moves`.
         baud: rate at which the driver opens its port.
         crc: True if the frames have a CRC; else they have a checksum, which may miss two faults in a frame.
+        unchecked: number of the bit of a hexadecimal digit to the board that the checksum may miss, or None.
     """
 
     make: Callable[[], Any]
@@ -85,6 +86,7 @@ class Target:
     queue: bool = True
     baud: int = SLOW
     crc: bool = True
+    unchecked: int | None = None
 
 
 def _bridge(driver: Any, text: str, baud: int = FAST, **more: Any) -> Target:
@@ -117,6 +119,7 @@ TARGETS: dict[str, Target] = {
         queue=False,
         baud=83_333,
         crc=False,
+        unchecked=3,
     ),
     "pmc006": Target(
         lambda: LineBoard("eeprom=none", 115_200, "pmc006"),

@@ -57,7 +57,7 @@ def faults_of(name: str, seed: int) -> tuple[int, tuple[Fault, ...]]:
     A dialogue is a session with given distances and pauses. Each of the first n seeds damages a different one
     of the n bytes of dialogue 0. The next n seeds damage the same bytes, each with another kind of fault.
     After all kinds, the next dialogue begins. For a board with a CRC, each dialogue with an odd number has a
-    second fault at a random place.
+    second fault at a random place. A bit that the checksum of the board may miss is not inverted.
     """
     seeds, number = seed, 0
     while seeds >= (size := sum(sizes(name, number)) * len(KINDS)):
@@ -67,6 +67,8 @@ def faults_of(name: str, seed: int) -> tuple[int, tuple[Fault, ...]]:
     rng = Random(f"{name} {seed}")
     kind = KINDS[(turn + place) % len(KINDS)]
     detail = rng.randrange(1 << 16)
+    if place >= to_host and detail % 8 == TARGETS[name].unchecked:
+        detail += 1
     first = (
         Fault(kind, True, place - to_host, detail) if place >= to_host else Fault(kind, False, place, detail)
     )

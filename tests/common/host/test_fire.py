@@ -48,6 +48,15 @@ def test_consecutive_seeds_damage_every_byte() -> None:
     assert number == 1 and len(faults) == 2
 
 
+def test_a_bit_that_the_checksum_misses_is_not_inverted() -> None:
+    """The checksum of the PPMC-312 does not contain bit 7 of a byte, so this bit is not part of the sweep."""
+    name = "ppmc312-serial"
+    faults = [fault for seed in range(4000) for fault in sweep.faults_of(name, seed)[1]]
+    flips = [fault for fault in faults if fault.kind is Kind.FLIP]
+    assert {fault.detail % 8 for fault in flips if fault.to_board} == {0, 1, 2, 4, 5, 6, 7}
+    assert {fault.detail % 8 for fault in flips if not fault.to_board} == set(range(8))
+
+
 def test_a_wrong_statement_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """`make fire` reports a driver that does not check the counter, and a link that ignores SEQ."""
     name = "ppmc104-115200"
