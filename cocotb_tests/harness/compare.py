@@ -53,6 +53,8 @@ def counts_text(sums: Counter[str]) -> str:
 DIGESTS = "OPENPPMC_DIGESTS"
 """Environment variable: if set, a simulation appends the digest of each compared recording to DIGEST_FILE."""
 DIGEST_FILE = "digests.txt"
+RECORDINGS = "OPENPPMC_RECORDINGS"
+"""Environment variable: folder for the recordings of all simulations that agree with the golden model."""
 
 
 def replay(recording: Recording, model: Any) -> list[Edge]:
@@ -98,4 +100,6 @@ def check_against_model(bench: Any) -> Comparison:
     leave()
     if comparison.mismatch is not None:
         raise AssertionError(write_report(comparison, bench.out, bench.repro))
+    if folder := os.environ.get(RECORDINGS):
+        (Path(folder) / f"{recording.digest()}.json").write_text(recording.to_json(), encoding="ascii")
     return comparison

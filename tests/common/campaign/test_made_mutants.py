@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import pytest
 
 from cocotb_tests.harness.project import ROOT, ProjectError
-from scripts.measure.mutants.made import page, work
-from scripts.measure.mutants.made.chosen import rtl_files, sample
+from openppmc.check.records import Edge, Recording
+from scripts.measure.mutants.made import page, replay, work
+from scripts.measure.mutants.made.chosen import of_file, rtl_files, sample
 from scripts.measure.mutants.made.faults import alone, faults
 from scripts.measure.mutants.made.page import Tried, score
 from scripts.measure.mutants.made.proved import proofs_of
@@ -74,6 +78,25 @@ def test_a_copy_holds_all_and_keeps_lines() -> None:
     assert all(f"{CHOSEN} == {f.number})" in copy or f"{CHOSEN} != {f.number})" in copy for f in every)
     plain = instrumented(TEXT, [])
     assert plain.replace(plain[plain.index(f" int {CHOSEN}") : plain.index("\n")], "") == TEXT
+
+
+def test_recordings_kill_mutants(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A recording without inputs kills mutants of the idle level, but not those of a pulse. A recording with
+    which the RTL does not agree kills none.
+    """
+    monkeypatch.setattr(replay, "folder", lambda: tmp_path)
+    monkeypatch.setattr(replay, "FEWEST", 1)
+    params: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}
+    right = Recording("ppmc104", params, end=100)
+    wrong = replace(right, end=90, edges=[Edge(50, "pout_n", 0)])
+    for name, recording in (("right", right), ("wrong", wrong)):
+        (tmp_path / f"{name}.json").write_text(recording.to_json(), encoding="ascii")
+    file = "rtl/motion/ppmc_pulse_shaper.sv"
+    replay.designs.cache_clear()
+    done = replay.replayed(replay.Work(file, tuple(fault.number for fault in of_file(file))))
+    replay.designs.cache_clear()
+    assert set(done.data["killed"].values()) == {"right"}
+    assert 0 < len(done.data["killed"]) < len(of_file(file)) // 2
 
 
 def test_one_alone() -> None:

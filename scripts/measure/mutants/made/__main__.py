@@ -1,23 +1,26 @@
 """`make mutate`: run proofs and tests on each mutant of rtl/ until one fails.
 
-It writes docs/mutants.md if all folders are included, else build/mutants.md. A killed mutant is not tried
-again while the source file that it mutates is unchanged; survivors are tried again when the sources have
-changed. The exit code is 1 if a mutant does not compile, or if a folder's score is below its goal.
+A run of all mutants first replays recorded tests into them (`replay`). It writes docs/mutants.md if all
+folders are included, else build/mutants.md. A killed mutant is not tried again while the source file that it
+mutates is unchanged; survivors are tried again when the sources have changed. The exit code is 1 if a mutant
+does not compile, or if a folder's score is below its goal.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Container
+from collections.abc import Container, Sequence
 
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, relative
 from cocotb_tests.harness.project import run as guarded
-from scripts.measure.campaign.cluster import add_arguments, workers_of
+from scripts.measure.campaign.cluster import Workers, add_arguments, workers_of
 from scripts.measure.campaign.jobs import Campaign, Done, Job
 from scripts.measure.campaign.run import run
 from scripts.measure.campaign.store import Store
 from scripts.measure.campaign.tree import SIMULATED, tree
+from scripts.measure.mutants.made import replay
 from scripts.measure.mutants.made.chosen import folder_of, rtl_files, sample
+from scripts.measure.mutants.made.faults import Fault
 from scripts.measure.mutants.made.page import QUICK, SO_FAR, Tried, page, score
 from scripts.measure.mutants.made.suites import Suites
 from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, digest, run_one
@@ -37,6 +40,24 @@ def known() -> dict[str, str]:
             for stamp, done in store.all(NAME)
             if done.data.get("verdict") == KILLED and done.data["file"] == digest(done.key.split(" ")[0])
         }
+
+
+def replay_all(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
+    """Store the mutants that a recorded test kills."""
+    done = known()
+    numbers: dict[str, list[int]] = {}
+    for file, fault in chosen:
+        if f"{file} {fault.number}" not in done:
+            numbers.setdefault(file, []).append(fault.number)
+    if not numbers:
+        return
+    replay.record(workers.count)
+    jobs = [Job(file, replay.Work(file, tuple(mine))) for file, mine in numbers.items()]
+    with Store() as store:
+        for one in run(Campaign("replay", replay.replayed, jobs, len(jobs), "files"), workers):
+            for number, recording in one.data.get("killed", {}).items():
+                data = {"verdict": KILLED, "test": f"recording {recording}", "file": digest(one.key)}
+                store.note(NAME, tree(SIMULATED), Done(f"{one.key} {number}", True, data, 0.0))
 
 
 def on_file(keys: Container[str]) -> list[Done]:
@@ -62,11 +83,14 @@ def main() -> int:
     if args.count is not None and args.count < 1:
         raise ProjectError("--count must be 1 or more")
     files = rtl_files(args.k)
+    chosen = list(sample(files, args.count))
+    if args.count is None and not (args.so_far or args.quick):
+        replay_all(chosen, workers_of(args))
     suites = None if args.so_far else Suites()
     stamp, killed = tree(SIMULATED), {} if args.fresh else known()
     faults = {}
     jobs = []
-    for file, fault in sample(files, args.count):
+    for file, fault in chosen:
         groups = suites.of(file, fault.line) if suites else []
         first = args.quick or bool(Tried(file, fault, "", "").why)
         mutant = Mutant(file, fault, tuple(groups[:2] if first else groups), briefly=first)

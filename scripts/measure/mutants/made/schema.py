@@ -2,6 +2,9 @@
 
 The argument +mutant=N selects a mutant when the simulation starts; 0 selects none. Thus, a design is compiled
 only once for all mutants of a file. Line numbers do not change.
+
+In a copy with notes, +mutant=EVERY selects none either, but calls the function NOTE with the number of each
+mutant whose expression has another value than the RTL, or whose removed statement is executed.
 """
 
 from __future__ import annotations
@@ -13,6 +16,9 @@ from scripts.measure.syntax import found, span, tree
 
 CHOSEN = "openppmc_mutant"
 DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSEN})) {CHOSEN} = 0;'
+EVERY = 999_999
+NOTE = "openppmc_note"
+NOTED = f' import "DPI-C" function int {NOTE}(input int number, input int differs);'
 
 
 def _heads(text: str) -> list[int]:
@@ -20,8 +26,8 @@ def _heads(text: str) -> list[int]:
     return [span(node.header)[1] for node in found(tree(text), "ModuleDeclaration")]
 
 
-def instrumented(text: str, faults: Sequence[Fault]) -> str:
-    """Return the copy with these mutants."""
+def instrumented(text: str, faults: Sequence[Fault], notes: bool = False) -> str:
+    """Return the copy with these mutants, with or without notes."""
     places: dict[tuple[int, int, bool], list[Fault]] = {}
     for fault in faults:
         places.setdefault((fault.start, fault.end, fault.dropped), []).append(fault)
@@ -46,16 +52,20 @@ def instrumented(text: str, faults: Sequence[Fault]) -> str:
         piece, at = [], start
         for head in heads:
             if start < head <= end:
-                piece += [text[at:head], DECLARED]
+                piece += [text[at:head], DECLARED + NOTED * notes]
                 at = head
         return "".join([*piece, text[at:end]])
 
     def wrapped(place: tuple[int, int, bool], inside: str) -> str:
         for fault in places[place]:
+            note = f"{CHOSEN} == {EVERY} && {NOTE}({fault.number}, "
             if fault.dropped:
-                inside = f"begin if ({CHOSEN} != {fault.number}) {inside} end"
+                executed = f"if ({note}1) != 0) begin end " * notes
+                inside = f"begin {executed}if ({CHOSEN} != {fault.number}) {inside} end"
             else:
-                inside = f"(({CHOSEN} == {fault.number}) ? ({_flat(fault.text)}) : ({inside}))"
+                new, old = _flat(fault.text), _flat(text[place[0] : place[1]])
+                differs = f" || ({note}int'(({new}) !== ({old}))) != 0)" * notes
+                inside = f"(({CHOSEN} == {fault.number}{differs}) ? ({new}) : ({inside}))"
         return inside
 
     return render(0, len(text), order)

@@ -52,10 +52,10 @@ def digest(file: str) -> str:
     return hashlib.sha256((ROOT / file).read_bytes()).hexdigest()[:12]
 
 
-def copy_of(file: str) -> Path:
+def copy_of(file: str, notes: bool = False) -> Path:
     """Return the path of the copy with all mutants of a file; write the copy if needed."""
     text = (ROOT / file).read_text(encoding="utf-8")
-    copy = instrumented(text, faults(text))
+    copy = instrumented(text, faults(text), notes)
     path = BUILD / "mutants" / hashlib.sha256(copy.encode()).hexdigest()[:12] / Path(file).name
     with locked(path.parent.with_suffix(".lock")):
         if not path.is_file():

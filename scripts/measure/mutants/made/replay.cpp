@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Main program that replays recordings of tests into the mutants of a design:
+//     Vtop RECORDINGS EVERY BUDGET MUTANT ...
+// It first replays each recording without a mutant, and notes the mutants that have another value than the RTL; only
+// these mutants are tried with this recording. For each mutant it prints its number, and the number of the first
+// recording in which an output differs, or -1 if there is none within BUDGET cycles. replay.py writes the file of
+// recordings, which consists of 64-bit words and names.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <list>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "Vtop.h"
+#include "verilated.h"
+#include "verilated_syms.h"
+
+namespace {
+
+using Word = std::uint64_t;
+
+struct Row {
+    Word t, port, level;
+};
+struct Recording {
+    Word number, end;
+    std::vector<Word> levels;  // of all words of all ports at the start
+    std::vector<Row> inputs, outputs;
+    std::set<int> noted;       // mutants that have another value than the RTL
+};
+struct Port {
+    std::string name;
+    Word first, words;  // its words among the words of all ports
+};
+
+std::vector<Port> ports;  // clk, rst_n, the other inputs, the outputs
+Word inputs = 0;          // number of words of the inputs
+std::list<Recording> recordings;
+std::set<int> noted;
+
+class Reader {
+  public:
+    explicit Reader(const char* path)
+        : file_(path, std::ios::binary), data_(std::istreambuf_iterator<char>(file_), {}) {}
+    bool more() const { return at_ < data_.size(); }
+    Word word() {
+        Word value;
+        std::memcpy(&value, &data_.at((at_ += 8) - 1) - 7, 8);
+        return value;
+    }
+    std::string text(Word size) { return {&data_[(at_ += size) - size], size}; }
+    std::vector<Row> rows() {
+        std::vector<Row> found(word());
+        for (Row& row : found) row = {word(), word(), word()};
+        return found;
+    }
+
+  private:
+    std::ifstream file_;
+    std::vector<char> data_;
+    std::size_t at_ = 0;
+};
+
+void read(const char* path) {
+    Reader reader(path);
+    Word words = 0;
+    inputs = reader.word();
+    for (Word left = reader.word(); left > 0; --left) {
+        const Word count = reader.word();
+        ports.push_back({reader.text(reader.word()), words, count});
+        words += count;
+    }
+    while (reader.more()) {
+        Recording recording{reader.word(), reader.word(), std::vector<Word>(words), {}, {}, {}};
+        for (Word& level : recording.levels) level = reader.word();
+        recording.inputs = reader.rows();
+        recording.outputs = reader.rows();
+        recordings.push_back(std::move(recording));
+    }
+}
+
+// Return whether an output differs from the recording.
+bool differs(const Recording& recording, const std::string& mutant) {
+    const std::string chosen = "+mutant=" + mutant;
+    const char* words[] = {"replay", chosen.c_str()};
+    VerilatedContext context;
+    context.commandArgs(2, words);
+    context.randReset(2);
+    context.randSeed(1);
+    context.assertOn(false);
+    Vtop top{&context, ""};
+    struct Place {
+        char* data;
+        std::size_t bytes;
+    };
+    std::vector<Place> places;
+    for (const Port& port : ports) {
+        const VerilatedVar* const var = context.scopeFind("TOP")->varFind(port.name.c_str());
+        for (std::size_t at = 0; at < var->entSize(); at += 8)
+            places.push_back({static_cast<char*>(var->datap()) + at, std::min<std::size_t>(8, var->entSize() - at)});
+    }
+    const auto put = [&](Word word, Word level) { std::memcpy(places[word].data, &level, places[word].bytes); };
+    const auto edge = [&] {
+        put(0, 1);
+        top.eval();
+        put(0, 0);
+    };
+    auto input = recording.inputs.begin();
+    std::vector<Word> expected = recording.levels;
+    for (Word word = 2; word < inputs; ++word) put(word, expected[word]);
+    for (; input != recording.inputs.end() && input->t == 0; ++input) put(input->port, input->level);
+    put(0, 0);
+    put(1, 1);
+    top.eval();
+    put(1, 0);
+    top.eval();
+    for (int cycle = 0; cycle < 4; ++cycle) {
+        edge();
+        top.eval();
+    }
+    put(1, 1);
+    auto output = recording.outputs.begin();
+    Word quiet = 0;  // an asynchronous reset may act one cycle earlier or later
+    for (Word t = 0; t <= recording.end; ++t) {
+        for (; input != recording.inputs.end() && input->t == t; ++input) {
+            if (input->port == 1) quiet = t + 2;
+            put(input->port, input->level);
+        }
+        top.eval();
+        edge();
+        for (; output != recording.outputs.end() && output->t == t; ++output) expected[output->port] = output->level;
+        if (t < quiet) continue;
+        for (Word word = inputs; word < places.size(); ++word) {
+            Word level = 0;
+            std::memcpy(&level, places[word].data, places[word].bytes);
+            if (level != expected[word]) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+// The design calls this function.
+extern "C" int openppmc_note(int number, int differs) {
+    if (differs) noted.insert(number);
+    return 0;
+}
+
+int main(int argc, char** argv) {
+    read(argv[1]);
+    for (auto at = recordings.begin(); at != recordings.end();) {
+        const auto now = at++;
+        noted.clear();
+        // The replay cannot repeat every test, for example one that changes rst_n between two edges.
+        if (differs(*now, argv[2]))
+            recordings.erase(now);
+        else
+            now->noted.swap(noted);
+    }
+    for (int n = 4; n < argc; ++n) {
+        long long number = -1;
+        Word left = std::stoull(argv[3]);
+        for (auto at = recordings.begin(); at != recordings.end(); ++at) {
+            if (!at->noted.count(std::stoi(argv[n])) || left < at->end) continue;
+            left -= at->end;
+            if (!differs(*at, argv[n])) continue;
+            number = static_cast<long long>(at->number);
+            // The next mutant of the file is probably found by the same recording.
+            recordings.splice(recordings.begin(), recordings, at);
+            break;
+        }
+        std::printf("%s %lld\n", argv[n], number);
+        std::fflush(stdout);
+    }
+}
