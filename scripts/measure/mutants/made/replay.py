@@ -34,7 +34,7 @@ from scripts.measure.mutants.made.schema import EVERY
 from scripts.measure.mutants.made.work import copy_of
 
 build.MAINS["replay"] = (Path(__file__).with_suffix(".cpp"),)
-LONGEST, BUDGET = 20_000, 2_000_000
+LONGEST, BUDGET = 20_000, 500_000
 """Maximum number of cycles of a recording, and of all recordings that are replayed into one mutant."""
 FEWEST = 20
 """Minimum number of recordings of a design, because the design is built for each file."""
