@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: Apache-2.0
+// pmc006_fv: proves a complete PMC006B4 from its pins, with a clock of 8 MHz and 100 000 baud (a µs has 8
+// cycles, a bit 80). The results of the planner, each word that is read from a RAM or from a table, and the
+// commands of the EEPROM bus may have any value in every cycle. All pins are unconstrained.
+`include "ppmc_fv.svh"
+`include "common/ppmc_lemma.svh"
+`default_nettype none
+
+module pmc006_fv
+  import pmc006_pkg::*;
+(
+    input wire logic       clk_i,
+    input wire logic       pin_rst_n,
+    input wire logic       rxd,
+    input wire logic       ext1,
+    input wire logic       ext2,
+    input wire logic       fset_n,
+    input wire logic [4:0] gpi,
+    input wire logic [9:0] adc_data,
+    input wire logic       adc_valid,
+    input wire logic [9:0] bemf_level,
+    input wire logic       bemf_valid,
+    input wire logic       cmp_a,
+    input wire logic       cmp_b,
+    input wire logic       scl_i,
+    input wire logic       sda_i
+);
+
+  logic txd, de, ext1_pu, ext2_pu;
+  logic [4:0] gpo;
+  logic [7:0] phase_a_ref, phase_b_ref;
+  logic phase_a_sign, phase_b_sign, pwm_a_ref, pwm_b_ref, bridge_a_en, bridge_b_en, m10, m11, m20, m21;
+  logic scl_o, scl_oe, sda_o, sda_oe, mon_step, mon_dir, mon_busy;
+
+  `FV_RESET
+  `FV_ANY_START(pin_rst_n)
+
+  pmc006 #(
+      .CLK_HZ(8_000_000),
+      .BAUD  (100_000)
+  ) dut (
+      .clk  (clk_i),
+      .rst_n(rst_dut_n),
+      .*
+  );
+
+  logic on;
+  assign on = dut.rst_core_n;
+
+  motor_settings_t set_q;  // registers that the instructions have written
+  control_settings_t ctl_q;
+  logic begins;  // a motion begins in the next cycle
+
+  // ---- frames: the bytes that the host has sent ---------------------------------------------------------
+
+  logic take;  // a byte is received
+  logic timeout, go, mine_q;
+  logic [7:0] char, sum_q;
+  logic [6:0][7:0] bytes_q;  // bytes of the frame, [0]: the first
+  logic [2:0] place, place_q;  // place of the next byte in its frame; 0: the byte must be A5
+  logic [3:0] frame_q;  // cycles since the end of a frame whose reply is not sampled; 0: no frame
+  logic reply_sample;
+
+  assign take = dut.u_serial.valid && dut.u_serial.rx_on;
+  assign char = dut.u_serial.char;
+  assign timeout = dut.u_serial.timeout;
+  assign reply_sample = dut.u_control.reply_sample;
+  assign place = timeout ? 3'd0 : place_q;
+  assign go = take && place == 3'd7 && mine_q && char == sum_q;
+
+  always_ff @(posedge clk_i) begin
+    if (take && place != 3'd7) bytes_q[place] <= char;
+    if (take) sum_q <= (place == '0) ? char : sum_q + char;
+    if (take && place == 3'd1) mine_q <= char == ctl_q.addr;
+  end
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) {place_q, frame_q} <= '0;
+    else begin
+      if (dut.u_serial.error) place_q <= '0;
+      else if (take) place_q <= (place == '0 && char != 8'hA5) ? '0 : place + 3'd1;
+      if (go || (frame_q != '0 && !reply_sample)) frame_q <= frame_q + 1'b1;
+      else frame_q <= '0;
+    end
+
+  // ---- instruction in progress --------------------------------------------------------------------------
+
+  localparam logic [2:0] ExIdle = 3'd0, ExFirst = 3'd1, ExSecond = 3'd2, ExDecode = 3'd3, ExCheck = 3'd4;
+  localparam logic [2:0] ExExec = 3'd5, ExReply = 3'd6;
+
+  exec_cmd_t cmd;
+  logic [2:0] ex;
+  logic exec, set_position, legal, pending, of_frame, of_program;
+  logic [7:0] op;
+  logic [31:0] data, data_q;
+
+  assign cmd = dut.u_control.cmd;
+  assign ex = dut.u_control.u_exec.state_q;
+  assign pending = dut.u_control.u_exec.frame_pending_q;
+  assign exec = dut.u_control.exec;
+  assign set_position = dut.u_control.set_position;
+  assign of_frame = cmd.source == FromFrame;
+  assign of_program = cmd.source == FromProgram || cmd.source == FromTry;
+  assign op = !of_frame ? cmd.op : bytes_q[2][7] ? I_NONE : bytes_q[2];
+  assign data = of_frame ? bytes_q[6:3] : cmd.data;
+  always_ff @(posedge clk_i) data_q <= cmd.data;
+
+  // The registers that set_q and ctl_q have.
+  function automatic logic [47:0] motor_key(motor_settings_t s);
+    return {s.mstep, s.dir, s.free, s.vstart, s.vstop, s.vmax};
+  endfunction
+  function automatic logic [30:0] control_key(control_settings_t c);
+    return {c.addr, c.trigm, c.exten, c.stlen, c.stcfg, c.stlvl};
+  endfunction
+  function automatic logic legal_mstep(logic [7:0] mstep);
+    return mstep inside {8'd0, 8'd2, 8'd4, 8'd8, 8'd16, 8'd32, 8'd64, 8'd128};
+  endfunction
+
+  // Data that the rules accept, for the instructions that this proof uses.
+  function automatic logic accepts(exec_cmd_t c, logic [7:0] code, logic [31:0] d);
+    logic program_code;
+    program_code = c.source == FromProgram || c.source == FromTry;
+    unique case (code)
+      I_STEP: return d != '0 && !d[31];
+      I_MSTEP: return legal_mstep(d[7:0]) && d[31:8] == '0;
+      I_RUN, I_DIR, I_FREE, I_OFFLINE, I_AUTODEC: return d <= 32'd1;
+      I_EXTEN: return d <= (program_code ? 32'd1 : 32'd3);
+      I_TRIGGER: return d <= 32'd3;
+      I_VSTART, I_VSTOP: return d inside {[32'd65 : 32'd3000]};
+      I_VMAX: return d <= 32'd16_000 && (program_code || d != '0) && c.option <= 4'd1;
+      I_STCFG: return d <= 32'd7;
+      I_STLEN: return d <= 32'd63;
+      I_STLVL: return d <= 32'd511;
+      I_ADDR: return d inside {[32'd1 : 32'd120]} || (c.source == FromBoot && d[15:0] == 16'h00FF);
+      default: return 1'b1;
+    endcase
+  endfunction
+
+  assign legal = accepts(cmd, op, data);
+
+  // Word of the program and parameter of the EEPROM do not change while an instruction is executed.
+  `FV_ASSUME(word_stands, ex != ExExec || of_frame || cmd.data == data_q)
+
+  // ---- registers that the instructions have written -----------------------------------------------------
+
+  always_ff @(posedge clk_i or negedge dut.u_control.rst_settings_n)
+    if (!dut.u_control.rst_settings_n) {set_q, ctl_q} <= {SETTINGS_RESET, CONTROL_RESET};
+    else if (exec && legal) begin
+      unique case (op)
+        I_MSTEP:   set_q.mstep <= data[7:0];
+        I_DIR:     set_q.dir <= data[0];
+        I_FREE:    set_q.free <= data[0];
+        I_VSTART:  set_q.vstart <= data[11:0];
+        I_VSTOP:   set_q.vstop <= data[11:0];
+        I_VMAX:    set_q.vmax <= data[13:0];
+        I_EXTEN:   ctl_q.exten <= of_frame ? data[1:0] : {2{data[0]}};
+        I_TRIGGER: ctl_q.trigm <= data[1:0];
+        I_STCFG:   ctl_q.stcfg <= data[2:0];
+        I_STLEN:   ctl_q.stlen <= data[6:0];
+        I_STLVL:   ctl_q.stlvl <= data[8:0];
+        I_ADDR:    ctl_q.addr <= data[7:0];
+        default:   ;
+      endcase
+    end
+
+  // ---- causes that stop a motion ------------------------------------------------------------------------
+
+  logic [2:0][1:0] ext_h;  // [n]: levels of EXT2 and EXT1, n + 1 cycles ago
+  logic [1:0] edges, flags_q;
+  logic key, cause;
+  logic sampled_q, low_q, counts, stalls, stall_q;  // as in pmc006_stall_fv
+  logic [7:0] row_q, needed;
+
+  assign edges = ctl_q.exten & (ext_h[1] ^ ext_h[2]) & ~(ext_h[1] ^ ctl_q.trigm);
+  assign key = dut.u_control.key_stop;
+  assign counts = sampled_q && low_q && ctl_q.stcfg[0] && !stall_q && mon_busy && dut.motion.steady;
+  assign needed = (ctl_q.stlen == '0) ? 8'd1 : {1'b0, ctl_q.stlen};
+  assign stalls = counts && row_q >= needed - 8'd1;
+  // verilog_format: off
+  assign cause = edges != '0 || key || (ctl_q.stcfg[1] && mon_busy && (stall_q || stalls))
+      || (exec && op == I_ABORT) || (exec && legal && op == I_FREE && data[0]);
+  // verilog_format: on
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) {ext_h, flags_q, sampled_q, stall_q} <= {6'b111111, 4'd0};
+    else begin
+      ext_h <= {ext_h[1:0], ext2, ext1};
+      flags_q <= edges | (flags_q & ~{exec && op == I_CLEAR2, exec && op == I_CLEAR1});
+      sampled_q <= bemf_valid;
+      stall_q <= stalls || (stall_q && !(exec && op == I_STALL) && !begins);
+    end
+
+  always_ff @(posedge clk_i) begin
+    if (bemf_valid) low_q <= bemf_level < 10'(ctl_q.stlvl);
+    if (!mon_busy) row_q <= '0;
+    else if (sampled_q) row_q <= !counts ? '0 : (row_q == '1) ? row_q : row_q + 8'd1;
+  end
+
+  // ---- motion -------------------------------------------------------------------------------------------
+
+  logic may_start, starts, runs, resumes;
+  logic limits_q;  // in the last cycle, VSTART and VSTOP were at most VMAX
+  logic going_q, going_q2, cause_q, busy_q, began_q, endless_q;  // …_q2: one cycle later
+  logic speed_q, speed_q2;  // register SPEED_MODE; resumed in this cycle counts in speed_q2
+  logic [30:0] left_q;
+  logic [31:0] pos_q, pos;
+  logic [8:0] angle_q, angle, turn_q;  // turn_q: angle of a step of the motion
+
+  // verilog_format: off
+  assign may_start = exec && legal && !mon_busy && !set_q.free && flags_q == '0 && edges == '0 && !key;
+  // verilog_format: on
+  assign starts = may_start && op == I_STEP && limits_q;
+  assign runs = may_start && op == I_RUN && data[0] && set_q.vmax != '0;
+  assign begins = starts || runs;
+  // verilog_format: off
+  assign resumes = exec && legal && op == I_RUN && data[0] && mon_busy && endless_q && edges == '0 && !key;
+  // verilog_format: on
+  assign pos = pos_q + (!mon_step ? 32'd0 : mon_dir ? 32'd1 : '1);
+  assign angle = angle_q + (!mon_step ? 9'd0 : mon_dir ? turn_q : -turn_q);
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, pos_q, angle_q} <= {39'd0, 9'd64};
+    else begin
+      going_q  <= begins || (going_q && !cause);
+      going_q2 <= going_q && !cause;
+      cause_q  <= cause;
+      busy_q   <= mon_busy;
+      began_q  <= begins;
+      speed_q2 <= speed_q || resumes;
+      if (cause || (exec && legal && op == I_RUN && !data[0])) speed_q <= 1'b0;
+      else if (runs || resumes) speed_q <= 1'b1;
+      pos_q <= set_position ? data : pos;
+      angle_q <= angle;
+    end
+
+  always_ff @(posedge clk_i) begin
+    limits_q <= 14'(set_q.vstart) <= set_q.vmax && 14'(set_q.vstop) <= set_q.vmax;
+    if (begins) {endless_q, left_q} <= {runs, data[30:0]};
+    else if (mon_step) left_q <= left_q - 31'd1;
+    if (begins) begin
+      turn_q <= 9'd128;
+      for (int unsigned n = 1; n < 8; n++) if (set_q.mstep == 8'(1 << n)) turn_q <= 9'(128 >> n);
+    end
+  end
+
+  logic forward_q;
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) forward_q <= 1'b1;
+    else if (begins) forward_q <= set_q.dir;
+
+  logic [30:0] left;
+  assign left = left_q - 31'(mon_step);
+
+  logic [2:0] us_phase;  // cycles since the last µs tick
+  logic us, first, run, due;
+  assign us_phase = dut.u_us.g_phase.phase_q;
+  assign us = dut.us;
+  assign first = dut.u_motion.start_q;  // first cycle of a motion
+  assign run = dut.u_motion.u_rate.run_q;
+  assign due = dut.u_motion.u_rate.step_pending_q;
+
+  // ---- lemmas: frames -----------------------------------------------------------------------------------
+
+  logic boot, of_boot, in_frame;  // in_frame: the frame is executed
+  logic [3:0] ee;
+  logic rx_off;
+  logic [6:0] bit_phase;
+
+  assign boot = dut.boot;
+  assign ee = dut.u_control.u_eeprom.state_q;
+  assign of_boot = cmd.source == FromBoot;
+  assign in_frame = of_frame && ex inside {ExCheck, ExExec, ExReply};
+  assign rx_off = dut.u_serial.rx_off_q;
+  assign bit_phase = dut.u_serial.phase_q;
+  // The reply, as in pmc006_serial_fv, with a bit of 80 cycles.
+  logic active_q, next_bit;
+  logic [3:0] byte_q, bit_q;
+  logic [6:0] units_q;
+  logic lead, last, first_half, tail, rx_idle;
+  logic [7:0] phase;
+
+  logic [1:0] rx_state;
+  logic [6:0] rx_phase;
+  assign rx_state = dut.u_serial.u_rx.state_q;
+  assign rx_phase = dut.u_serial.u_rx.phase_q;
+  assign next_bit = units_q == 7'd79;
+  assign lead = active_q && byte_q == '0 && bit_q == 4'd8;
+  assign last = active_q && byte_q == 4'd8 && bit_q == 4'd9;
+  assign first_half = last && units_q < 7'd40;
+  assign tail = last && units_q >= 7'd40;
+  assign phase = 8'(units_q) + (first_half ? 8'd41 : 8'd1);
+  assign rx_idle = rx_state == 2'd0 && rx_phase == 7'd88 && !dut.u_serial.u_rx.g_modulus.wrapped_q;
+
+  always_ff @(posedge clk_i) begin
+    units_q <= (next_bit || go) ? 7'(go) : units_q + 7'd1;
+    if (go) {byte_q, bit_q} <= {4'd0, 4'd8};
+    else if (next_bit) begin
+      bit_q <= bit_q + 1'b1;
+      if (bit_q == 4'd9) {bit_q, byte_q} <= {4'd0, byte_q + 1'b1};
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) active_q <= 1'b0;
+    else active_q <= go || (active_q && !(next_bit && byte_q == 4'd8 && bit_q == 4'd9));
+
+  `FV_LEMMA(lemma_range, !active_q || (byte_q <= 4'd8 && bit_q <= 4'd9 && (byte_q != '0 || bit_q >= 4'd8)
+            && units_q < 7'd80))
+  `FV_LEMMA(lemma_tick, !active_q || dut.u_serial.bit_tick_q == (phase >= 8'd80))
+  `FV_LEMMA(lemma_phase, !active_q || bit_phase == (phase >= 8'd80 ? 7'(phase - 8'd80) : 7'(phase + 8'd48)))
+  `FV_LEMMA(lemma_byte, !active_q || dut.u_serial.byte_index_q == byte_q)
+  `FV_LEMMA(lemma_bit, !active_q || dut.u_serial.bits_left_q == (byte_q == '0 ? 4'd0 : 4'd9 - bit_q))
+  `FV_LEMMA(lemma_driver, de == (active_q && (byte_q != '0 || bit_q == 4'd9)))
+  `FV_LEMMA(lemma_rx_off, rx_off == (active_q && !tail))
+  `FV_LEMMA(lemma_valid, !(dut.u_serial.valid || dut.u_serial.error) || (rx_state != 2'd1 && rx_state != 2'd2 && rx_phase == 7'd88
+            && !dut.u_serial.u_rx.g_modulus.wrapped_q))
+  `FV_LEMMA(lemma_no_valid, !(dut.u_serial.valid && active_q))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_rx_start,
+      !lead || rx_idle || (rx_state == 2'd1 && !dut.u_serial.u_rx.g_modulus.wrapped_q
+          && 8'(rx_phase) <= 8'd88 + 8'(units_q) && rx_phase >= 7'd89 && (units_q < 7'd4
+          || 8'(rx_phase) >= 8'd85 + 8'(units_q))))
+  `FV_LEMMA(
+      lemma_rx_tail,
+      !tail || rx_idle || (rx_state == 2'd1 && !dut.u_serial.u_rx.g_modulus.wrapped_q
+          && 8'(rx_phase) <= 8'd48 + 8'(units_q) && rx_phase >= 7'd89))
+  // verilog_format: on
+  `FV_LEMMA(lemma_rx_idle, !active_q || lead || tail || rx_idle)
+  `FV_LEMMA(lemma_gate,
+            !active_q || (lead && units_q < 7'd2) || (tail && units_q >= 7'd41) || !dut.u_serial.line_high_q)
+  `FV_LEMMA(lemma_first,
+            !active_q || (lead && units_q < 7'd3) || (tail && units_q >= 7'd42) || dut.u_serial.u_rx.u_sync.q1_o)
+  `FV_LEMMA(lemma_second,
+            !active_q || (lead && units_q < 7'd4) || (tail && units_q >= 7'd43) || dut.u_serial.u_rx.line)
+
+  `FV_LEMMA(lemma_place, dut.u_serial.u_frame.index_q == place_q)
+  `FV_LEMMA(lemma_head, place_q < 1 || bytes_q[0] == 8'hA5)
+  `FV_LEMMA(lemma_sum, place_q < 1 || dut.u_serial.u_frame.sum_q == sum_q)
+  `FV_LEMMA(lemma_address, place_q < 2 || dut.u_serial.u_frame.addr_match_q == mine_q)
+  `FV_LEMMA(lemma_code, place_q < 3 || dut.u_serial.u_frame.code_q == bytes_q[2])
+  logic [3:0] same;  // [n]: byte n of the data, from the last one on
+  always_comb
+    for (int unsigned n = 0; n < 4; n++)
+      same[n] = place_q < 4 + n || dut.u_serial.u_frame.data_q[31-8*n-:8] == bytes_q[place_q-1-3'(n)];
+  `FV_LEMMA(lemma_data, same == '1)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_frame,
+      frame_q == '0 || (bytes_q[0] == 8'hA5 && dut.u_serial.u_frame.code_q == bytes_q[2]
+          && dut.u_serial.u_frame.data_q == bytes_q[6:3]))
+  `FV_LEMMA(lemma_no_byte, frame_q == '0 || (lead && units_q == 7'(frame_q)))
+  `FV_LEMMA(lemma_in_frame, !on || (frame_q != '0) == (pending || in_frame))
+  `FV_LEMMA(
+      lemma_pending,
+      !pending || (frame_q != '0 && ex <= ExExec && frame_q <= (ex == ExIdle ? 4'd6 : 4'(ex))
+          && (ex == ExIdle || cmd.source == FromProgram)))
+  `FV_LEMMA(
+      lemma_age,
+      !in_frame || (!pending && frame_q <= (ex == ExCheck ? 4'd7 : ex == ExReply ? 4'd10 : us_phase == 3'd3
+          ? 4'd9 : 4'd8)))
+  `FV_LEMMA(
+      lemma_try,
+      cmd.source != FromTry || !(ex inside {ExFirst, ExSecond, ExDecode, ExCheck, ExExec})
+          || (lead && units_q <= 7'd11 + 7'(ex)))
+  // verilog_format: on
+  `FV_LEMMA(lemma_exec, ex <= ExReply && (ex != ExReply || of_frame))
+  `FV_LEMMA(lemma_word_states, !(ex inside {ExFirst, ExSecond, ExDecode}) || of_program)
+  `FV_LEMMA(lemma_try_next, !dut.u_control.u_exec.try_next_q || !on || (ex == ExReply && of_frame))
+  `FV_LEMMA(lemma_of_boot, !of_boot || ex == ExIdle || (boot && ee == 4'd11
+            && dut.u_control.u_eeprom.phase_q == (ex == ExCheck ? 3'd4 : 3'd5) && ex inside {ExCheck, ExExec}))
+  `FV_LEMMA(lemma_boot, !boot || (frame_q == '0 && !rx_off && !de && place_q == '0))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_read,
+      !dut.u_control.u_eeprom.read_q || (boot && !dut.u_control.u_eeprom.factory_q
+          && ee inside {[4'd2 : 4'd9]}))
+  // verilog_format: on
+  `FV_LEMMA(lemma_load, !(ee inside {4'd10, 4'd11}) || (boot && !dut.u_control.u_eeprom.factory_q))
+  `FV_LEMMA(lemma_bus, !(dut.u_control.u_eeprom.done || dut.u_control.u_eeprom.fail) || ee inside {[4'd1 : 4'd9]})
+
+  // ---- lemmas: instruction ------------------------------------------------------------------------------
+
+  logic [7:0] rom_op;
+  logic [29:0] limits, limits_of_op;
+  assign rom_op = dut.u_control.u_exec.op_q;
+  assign limits = dut.u_control.u_exec.u_data_check.limits_q;
+  assign limits_of_op = dut.u_control.u_exec.u_data_check.rom[{of_program, rom_op}];
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_limits,
+      !(ex inside {ExCheck, ExExec}) || limits == limits_of_op)
+  `FV_LEMMA(lemma_op, !in_frame || (rom_op == op && cmd.data == data && cmd.option == '0))
+  `FV_LEMMA(lemma_no_host_op, !(ex inside {ExCheck, ExExec}) || of_frame || !(rom_op inside {I_POS_SET, I_TRY}))
+  `FV_LEMMA(lemma_legal, !(exec || set_position) || dut.u_control.legal == legal
+      || !(op inside {I_STEP, I_MSTEP, I_RUN, I_DIR, I_FREE, I_OFFLINE, I_AUTODEC, I_EXTEN, I_TRIGGER, I_VSTART,
+      I_VSTOP, I_VMAX, I_STCFG, I_STLEN, I_STLVL, I_ADDR}))
+  // verilog_format: on
+  `FV_LEMMA(lemma_settings, motor_key(dut.settings) == motor_key(set_q))
+  `FV_LEMMA(lemma_mstep, legal_mstep(set_q.mstep))
+  `FV_LEMMA(lemma_control, control_key(dut.u_control.control) == control_key(ctl_q))
+
+  // ---- lemmas: motion -----------------------------------------------------------------------------------
+
+  `FV_LEMMA(lemma_us, us == (us_phase == '0))
+  `FV_LEMMA(lemma_us_times, (!dut.u_motion.u_rate.accumulate_q || us_phase == 3'd1) && (!due || us_phase == 3'd2)
+            && (!mon_step || us_phase == 3'd3))
+  `FV_LEMMA(lemma_run, !mon_busy || run || !(dut.u_motion.u_rate.accumulate_q || due))
+  `FV_LEMMA(lemma_pins, dut.ext_sync == ext_h[1] && dut.u_control.u_ext_stop.ext_prev_q == ext_h[2])
+  `FV_LEMMA(lemma_flags, dut.u_control.flags == flags_q)
+  `FV_LEMMA(lemma_stall, dut.u_control.stall == stall_q && dut.u_control.u_stall.sample_q == sampled_q)
+  `FV_LEMMA(lemma_low, !sampled_q || dut.u_control.u_stall.low_q == low_q)
+  `FV_LEMMA(lemma_row, !mon_busy || dut.u_control.u_stall.count_q == (row_q[7] ? 7'd127 : row_q[6:0]))
+  `FV_LEMMA(lemma_limits_of_speed, !exec || dut.u_control.u_start_check.limits_q == limits_q)
+  `FV_LEMMA(lemma_speed_mode, dut.u_control.speed_mode == speed_q && (!speed_q || (mon_busy && endless_q)))
+  `FV_LEMMA(lemma_kind, !mon_busy || (dut.u_control.u_start_check.endless_q == endless_q
+            && dut.u_motion.speed_q == endless_q))
+  `FV_LEMMA(lemma_begin, first == began_q && (!first || (mon_busy && !due && !run
+            && !dut.u_motion.u_rate.planned)))
+  `FV_LEMMA(lemma_left, !mon_busy || dut.u_motion.u_rate.left_o == left)
+  `FV_LEMMA(lemma_left_some, !mon_busy || endless_q || left != '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_last,
+      !mon_busy || first || (run && us_phase == 3'd3)
+          || dut.u_motion.u_rate.last_step_q == (left == 31'd1))
+  // verilog_format: on
+  `FV_LEMMA(lemma_turn, !mon_busy || 9'(dut.u_motion.increment_q) == turn_q)
+  `FV_LEMMA(lemma_direction, mon_dir == forward_q)
+
+  // ---- properties of a motion ---------------------------------------------------------------------------
+
+  `FV_LEMMA(stop_no_step, !on || !mon_step || (going_q2 && !cause_q))
+  `FV_LEMMA(stop_not_busy, !on || !mon_busy || going_q)
+  `FV_LEMMA(start_begins, !on || (mon_busy && !busy_q) == began_q)
+  `FV_LEMMA(count_no_more, !on || !mon_step || endless_q || left_q != '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      count_or_a_cause,
+      !on || !busy_q || mon_busy || cause_q || (endless_q ? !speed_q2 : mon_step && left_q == 31'd1))
+  // verilog_format: on
+  `FV_LEMMA(count_position, !on || dut.u_control.position == pos)
+  `FV_LEMMA(count_angle, !on || dut.u_drive.angle_q == angle)
+
+  `FV_COVER(seen_step, mon_step && !mon_dir && left_q == 31'd3 && $past(on))
+
+endmodule
+
+`default_nettype wire
