@@ -106,11 +106,11 @@ module pmc006_fv
   always_ff @(posedge clk_i) data_q <= cmd.data;
 
   // The registers that set_q and ctl_q have.
-  function automatic logic [47:0] motor_key(motor_settings_t s);
-    return {s.mstep, s.dir, s.free, s.vstart, s.vstop, s.vmax};
+  function automatic logic [48:0] motor_key(motor_settings_t s);
+    return {s.mstep, s.autodec, s.dir, s.free, s.vstart, s.vstop, s.vmax};
   endfunction
-  function automatic logic [30:0] control_key(control_settings_t c);
-    return {c.addr, c.trigm, c.exten, c.stlen, c.stcfg, c.stlvl};
+  function automatic logic [31:0] control_key(control_settings_t c);
+    return {c.addr, c.trigm, c.exten, c.offline, c.stlen, c.stcfg, c.stlvl};
   endfunction
   function automatic logic legal_mstep(logic [7:0] mstep);
     return mstep inside {8'd0, 8'd2, 8'd4, 8'd8, 8'd16, 8'd32, 8'd64, 8'd128};
@@ -159,6 +159,8 @@ module pmc006_fv
         I_STLEN:   ctl_q.stlen <= data[6:0];
         I_STLVL:   ctl_q.stlvl <= data[8:0];
         I_ADDR:    ctl_q.addr <= data[7:0];
+        I_AUTODEC: set_q.autodec <= data[0];
+        I_OFFLINE: ctl_q.offline <= data[0];
         default:   ;
       endcase
     end
@@ -203,7 +205,7 @@ module pmc006_fv
   logic going_q, going_q2, cause_q, busy_q, began_q, endless_q;  // …_q2: one cycle later
   logic speed_q, speed_q2;  // register SPEED_MODE; resumed in this cycle counts in speed_q2
   logic [30:0] left_q;
-  logic [31:0] pos_q, pos;
+  logic [31:0] pos_q, pos, stpos_q;
   logic [8:0] angle_q, angle, turn_q;  // turn_q: angle of a step of the motion
 
   // verilog_format: off
@@ -219,7 +221,7 @@ module pmc006_fv
   assign angle = angle_q + (!mon_step ? 9'd0 : mon_dir ? turn_q : -turn_q);
 
   always_ff @(posedge clk_i or negedge on)
-    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, pos_q, angle_q} <= {39'd0, 9'd64};
+    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, pos_q, stpos_q, angle_q} <= {71'd0, 9'd64};
     else begin
       going_q  <= begins || (going_q && !cause);
       going_q2 <= going_q && !cause;
@@ -231,6 +233,7 @@ module pmc006_fv
       else if (runs || resumes) speed_q <= 1'b1;
       pos_q <= set_position ? data : pos;
       angle_q <= angle;
+      if (stalls) stpos_q <= pos;
     end
 
   always_ff @(posedge clk_i) begin
@@ -389,9 +392,16 @@ module pmc006_fv
   // verilog_format: off
   `FV_LEMMA(
       lemma_limits,
-      !(ex inside {ExCheck, ExExec}) || limits == limits_of_op)
+      !(ex inside {ExCheck, ExExec} || (ex == ExReply)) || limits == limits_of_op)
   `FV_LEMMA(lemma_op, !in_frame || (rom_op == op && cmd.data == data && cmd.option == '0))
-  `FV_LEMMA(lemma_no_host_op, !(ex inside {ExCheck, ExExec}) || of_frame || !(rom_op inside {I_POS_SET, I_TRY}))
+  `FV_LEMMA(
+      lemma_no_host_op,
+      !(ex inside {ExCheck, ExExec}) || of_frame
+          || !(rom_op inside {I_POS_SET, I_TRY, I_START, I_PUT, I_GET, I_BURN, I_SAVE, I_POINTER}))
+  `FV_LEMMA(
+      lemma_boot_op,
+      !(of_boot && ex inside {ExCheck, ExExec})
+          || !(rom_op inside {I_STEP, I_RUN, P_OUT, P_WAIT, P_RESET_EN, P_PAUSE_EN}))
   `FV_LEMMA(lemma_legal, !(exec || set_position) || dut.u_control.legal == legal
       || !(op inside {I_STEP, I_MSTEP, I_RUN, I_DIR, I_FREE, I_OFFLINE, I_AUTODEC, I_EXTEN, I_TRIGGER, I_VSTART,
       I_VSTOP, I_VMAX, I_STCFG, I_STLEN, I_STLVL, I_ADDR}))
@@ -442,7 +452,200 @@ module pmc006_fv
   `FV_LEMMA(count_position, !on || dut.u_control.position == pos)
   `FV_LEMMA(count_angle, !on || dut.u_drive.angle_q == angle)
 
+  // The RTL asserts the assumptions of other proofs.
+
+  // ---- boot ---------------------------------------------------------------------------------------------
+
+  logic stored, page_bad;
+  assign stored   = dut.u_control.u_eeprom.store_q;
+  assign page_bad = dut.u_control.u_eeprom.page_bad_q;
+
+  // A parameter that was accepted when the page was checked is also accepted when it is loaded.
+  // verilog_format: off
+  `FV_ASSUME(
+      page_stands,
+      !(stored && ee == 4'd11 && dut.u_control.u_eeprom.phase_q == 3'd5)
+          || dut.u_control.u_eeprom.load_op_o == I_NONE || dut.u_control.legal)
+  // verilog_format: on
+
+  `FV_LEMMA(lemma_stored, !stored || (boot && (ee == 4'd12 || (ee == 4'd11 && !page_bad))))
+  `FV_LEMMA(lemma_offline, !boot || !ctl_q.offline || (stored && !page_bad))
+  `FV_LEMMA(lemma_factory, !(boot && dut.u_control.u_eeprom.factory_q) || !dut.u_control.rst_settings_n)
+  `FV_LEMMA(boot_no_motion, !boot || (!mon_busy && dut.u_control.u_program.state_q == 0 && !dut.u_control.u_program.rsten_q
+            && (ex == ExIdle || of_boot)))
+
+  // ---- reply --------------------------------------------------------------------------------------------
+
+  logic known, known_q, accepted_q, sampled_reply_q;
+  logic [31:0] expected, expected_q, reply_q;
+  logic [7:0] reply_sum_q, char_q, next_char;
+  logic line;
+  logic [4:0] gpo_q, gpo_pins_q;
+  logic [1:0][4:0] gpi_h;
+
+  // Reply of the instructions that have no register of their own.
+  always_comb begin
+    known = 1'b1;
+    unique case (op)
+      I_ABORT, I_POS_SET: expected = data;
+      I_STEP:    expected = accepted_q ? 32'd3 : 32'd0;
+      I_POS:     expected = pos;
+      I_STPOS:   expected = stpos_q;
+      I_RUN:     expected = 32'(speed_q);
+      I_STATUS1: expected = 32'({stall_q, set_q.autodec, flags_q, mon_busy});
+      I_STATUS2: expected = 32'({ctl_q.offline, set_q.dir, speed_q, ctl_q.exten, set_q.free});
+      I_PORTS:   expected = 32'({ext_h[1], gpi_h[1][4:3], gpo, gpi_h[1][2:0]});
+      I_OUT:     expected = 32'({gpo_q, 3'd0});
+      I_CLEAR1, I_CLEAR2, I_STALL, I_NONE: expected = '0;
+      default:   {known, expected} = '0;
+    endcase
+  end
+
+  always_comb begin
+    unique case (byte_q)
+      4'd0: next_char = 8'hA5;
+      4'd1: next_char = 8'h7A;
+      4'd2: next_char = ctl_q.addr;
+      4'd3: next_char = reply_q[7:0];
+      4'd4: next_char = reply_q[15:8];
+      4'd5: next_char = reply_q[23:16];
+      4'd6: next_char = reply_q[31:24];
+      default: next_char = reply_sum_q;
+    endcase
+  end
+
+  assign line = !active_q || byte_q == '0 || bit_q == 4'd9 || (bit_q != '0 && char_q[3'(bit_q-1'b1)]);
+
+  always_ff @(posedge clk_i) begin
+    accepted_q <= starts;
+    {known_q, expected_q} <= {known, expected};
+    if (sampled_reply_q) reply_q <= dut.reply;
+    if (go) reply_sum_q <= '0;
+    else if (active_q && next_bit && bit_q == 4'd9) begin
+      char_q <= next_char;
+      reply_sum_q <= reply_sum_q + next_char;
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) {sampled_reply_q, gpo_q, gpo_pins_q, gpi_h} <= {11'd0, 10'h3FF};
+    else begin
+      sampled_reply_q <= reply_sample;
+      gpi_h <= {gpi_h[0], gpi};
+      gpo_pins_q <= gpo_q | {stall_q && ctl_q.stcfg[2], 4'd0};
+      if (exec && op == I_OUT) gpo_q <= data[7:3];
+      for (int unsigned n = 0; n < 5; n++) if (exec && op == P_OUT && cmd.option == 4'(n + 1)) gpo_q[n] <= data[0];
+    end
+
+  `FV_LEMMA(lemma_stall_position, dut.u_control.stall_position == stpos_q)
+  `FV_LEMMA(lemma_accepted, ex != ExReply || op != I_STEP || dut.u_control.accepted_q == accepted_q)
+  `FV_LEMMA(lemma_inputs, dut.gpi_sync == gpi_h[1])
+  `FV_LEMMA(lemma_outputs, dut.u_control.gpo_reg == gpo_q)
+  `FV_LEMMA(lemma_sampled, !sampled_reply_q || (lead && frame_q == '0 && units_q <= 7'd11))
+  `FV_LEMMA(lemma_reply, !active_q || frame_q != '0 || sampled_reply_q || dut.reply == reply_q)
+  `FV_LEMMA(lemma_bits, !active_q || byte_q == '0 || dut.u_serial.bits_q == 8'({9'h1FF, char_q} >> bit_q))
+  `FV_LEMMA(lemma_reply_sum,
+            !active_q || dut.u_serial.sum_q == ((byte_q == '0 || bit_q != '0) ? reply_sum_q : reply_sum_q - char_q))
+
+  `FV_LEMMA(reply_data, !sampled_reply_q || !known_q || dut.reply == expected_q)
+  `FV_LEMMA(reply_bits, txd == line)
+  `FV_LEMMA(reply_of_a_frame, !de || active_q)
+  `FV_LEMMA(reply_once, !go || (!active_q && frame_q == '0 && !boot))
+  `FV_LEMMA(ports_outputs, gpo == gpo_pins_q && {ext2_pu, ext1_pu} == ~ctl_q.trigm)
+
+  // ---- no lock-up ---------------------------------------------------------------------------------------
+
+  logic [12:0] age_q;  // cycles since the frame
+  logic [9:0] rest_q;  // cycles in which the line is at rest, at most 1023
+  logic [6:0] rx_now;  // phase of the bit, 48 .. 127
+  logic [10:0] rx_left;  // cycles to the middle of the stop bit
+  assign rx_now  = rx_phase + (dut.u_serial.u_rx.g_modulus.wrapped_q ? 7'd48 : 7'd0);
+  assign rx_left = 11'd128 - 11'(rx_now) + 11'd80 * (rx_state == 2'd1 ? 11'd9 : 11'(dut.u_serial.u_rx.bits_left_q));
+
+  always_ff @(posedge clk_i) age_q <= go ? 13'd1 : age_q + 13'd1;
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) rest_q <= '0;
+    else rest_q <= !rxd ? '0 : (rest_q == '1) ? rest_q : rest_q + 10'd1;
+
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_reply_age,
+      !active_q || age_q == 13'd80 * (13'd10 * 13'(byte_q) + 13'(bit_q) - 13'd8) + 13'(units_q))
+  `FV_LEMMA(
+      lemma_rx,
+      !(rx_state inside {2'd1, 2'd2}) || (rx_now >= (rx_state == 2'd1 ? 7'd88 : 7'd48) && rx_left <= 11'd760
+          && (rest_q < 10'd4 || 11'(rest_q) + rx_left <= 11'd764)))
+  // verilog_format: on
+  `FV_LEMMA(lemma_rx_wrapped, !on || !dut.u_serial.u_rx.g_modulus.wrapped_q || (rx_state == 2'd2 && rx_phase == '0))
+  `FV_LEMMA(lemma_rx_line, (rest_q < 10'd1 || dut.u_serial.u_rx.u_sync.q1_o) && (rest_q < 10'd2 || (dut.u_serial.u_rx.line
+            && dut.u_serial.line)) && (rest_q < 10'd1 || dut.u_serial.u_line.q1_o))
+  `FV_LEMMA(lemma_rx_idle_phase, rx_state != 2'd0 || rx_phase inside {[7'd88 : 7'd89]})
+
+  `FV_LEMMA(ready_reply, !active_q || age_q < 13'd6560)
+  `FV_LEMMA(ready_instruction, frame_q <= 4'd10)
+  `FV_LEMMA(ready_receiver, !on || rest_q < 10'd765 || rx_state == 2'd0)
+
+  // ---- bridges and excitation ---------------------------------------------------------------------------
+
+  logic off, bridge_q;
+  logic [5:0] off_age_q;  // consecutive cycles without current, at most 63
+  logic [1:0] a_q, b_q;  // {m11, m10}, {m21, m20}
+  logic [4:0] refs_cycle;
+  assign off = boot || set_q.free;
+  assign refs_cycle = dut.u_drive.u_refs.cycle_q;
+
+  always_ff @(posedge clk_i or negedge on)
+    if (!on) {bridge_q, off_age_q, a_q, b_q} <= '0;
+    else begin
+      bridge_q <= !off;
+      off_age_q <= !off ? '0 : (off_age_q == '1) ? off_age_q : off_age_q + 6'd1;
+      {a_q, b_q} <= {m11, m10, m21, m20};
+    end
+
+  `FV_LEMMA(lemma_bridge_a, dut.u_drive.u_bridge_a.state_q != 0 || {m11, m10} == '0)
+  `FV_LEMMA(lemma_bridge_b, dut.u_drive.u_bridge_b.state_q != 0 || {m21, m20} == '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_refs_off,
+      (refs_cycle == '0 ? off_age_q < 6'd32 : off_age_q < 6'(refs_cycle)) || dut.u_drive.u_refs.off_q)
+  `FV_LEMMA(
+      lemma_refs_zero,
+      !dut.u_drive.u_refs.off_q || refs_cycle == '0 || ((refs_cycle < 5'd3 || dut.u_drive.u_refs.reduced_q == '0)
+          && (refs_cycle < 5'd9 || dut.u_drive.u_refs.product_q == 9'(9'd256 >> (refs_cycle - 5'd8)) >> 1
+          || refs_cycle > 5'd16)
+          && (refs_cycle < 5'd17 || dut.u_drive.u_refs.a_q == '0) && (refs_cycle < 5'd17 || refs_cycle > 5'd24
+          || dut.u_drive.u_refs.product_q == 9'(9'd128 >> (refs_cycle - 5'd16)))))
+  `FV_LEMMA(
+      lemma_refs,
+      !(off_age_q >= 6'd32 + 6'(refs_cycle) || (refs_cycle >= 5'd25 && off_age_q >= 6'(refs_cycle)))
+          || {phase_a_ref, phase_b_ref, phase_a_sign, phase_b_sign} == '0)
+  // verilog_format: on
+  `FV_LEMMA(bridge_off, bridge_a_en == bridge_q && bridge_b_en == bridge_q && (bridge_q || {m10, m11, m20, m21} == '0))
+  `FV_LEMMA(bridge_legal, {m10, m11} != '1 && {m20, m21} != '1)
+  `FV_LEMMA(bridge_off_between, !(m10 && a_q[1]) && !(m11 && a_q[0]) && !(m20 && b_q[1]) && !(m21 && b_q[0]))
+  `FV_LEMMA(bridge_no_current, off_age_q < 6'd56 || {phase_a_ref, phase_b_ref, phase_a_sign, phase_b_sign} == '0)
+
+  // ---- reset --------------------------------------------------------------------------------------------
+
+  // verilog_format: off
+  `FV_ASSERT(
+      reset_pins,
+      pin_rst_n || ({de, gpo, phase_a_ref, phase_a_sign, phase_b_ref, phase_b_sign, pwm_a_ref, pwm_b_ref, bridge_a_en,
+          bridge_b_en, m10, m11, m20, m21, scl_oe, sda_oe, mon_step, mon_busy} == '0 && txd && ext1_pu && ext2_pu
+          && mon_dir))
+  `FV_ASSERT(
+      reset_state,
+      pin_rst_n || (boot && dut.u_control.position == '0 && dut.u_control.flags == '0 && !dut.u_control.stall
+          && !pending && ex == ExIdle))
+  // verilog_format: on
+
+  `FV_COVER(seen_reset, !on && !later_q)
   `FV_COVER(seen_step, mon_step && !mon_dir && left_q == 31'd3 && $past(on))
+  `FV_COVER(seen_stop, busy_q && !mon_busy && cause_q && flags_q != '0)
+  `FV_COVER(seen_end, busy_q && !mon_busy && !cause_q && !endless_q)
+  `FV_COVER(seen_reply, tail && units_q == 7'd79 && rx_state == 2'd1)
+  `FV_COVER(seen_data, sampled_reply_q && known_q && expected_q == 32'd3 && $past(on))
+  `FV_COVER(seen_rest, rest_q == '1 && rx_state == 2'd0 && !boot)
 
 endmodule
 

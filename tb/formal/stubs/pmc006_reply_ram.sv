@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_reply_ram, stub for proofs that hold for any stored value: value_o changes only with sample_i.
+// pmc006_reply_ram, stub for proofs that hold for any stored value: value_o changes only with sample_i, and is 0
+// without a register.
 `default_nettype none
 
 module pmc006_reply_ram
@@ -14,7 +15,7 @@ module pmc006_reply_ram
     output logic           [13:0] value_o
 );
   logic [13:0] any;  // not driven; the register ensures that all blocks read the same value
-  always_ff @(posedge clk_i) if (sample_i) value_o <= any;
+  always_ff @(posedge clk_i) if (sample_i) value_o <= (reg_id_i == RegNone) ? '0 : any;
 
 endmodule
 
