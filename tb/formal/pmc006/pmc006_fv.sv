@@ -442,6 +442,9 @@ module pmc006_fv
 
   `FV_LEMMA(stop_no_step, !on || !mon_step || (going_q2 && !cause_q))
   `FV_LEMMA(stop_not_busy, !on || !mon_busy || going_q)
+  `FV_LEMMA(stop_in_the_cycle, !on || dut.halt == cause)
+  `FV_LEMMA(stop_before_the_position, !(set_position && dut.step))
+  `FV_LEMMA(start_in_the_cycle, !on || {dut.motion_start.start, dut.motion_start.run} == {starts, runs})
   `FV_LEMMA(start_begins, !on || (mon_busy && !busy_q) == began_q)
   `FV_LEMMA(count_no_more, !on || !mon_step || endless_q || left_q != '0)
   // verilog_format: off
@@ -452,7 +455,46 @@ module pmc006_fv
   `FV_LEMMA(count_position, !on || dut.u_control.position == pos)
   `FV_LEMMA(count_angle, !on || dut.u_drive.angle_q == angle)
 
-  // The RTL asserts the assumptions of other proofs.
+  // ---- the planner ends in time -------------------------------------------------------------------------
+
+  typedef logic [798:0][9:0] states_t;
+  function automatic states_t states();
+    for (int unsigned n = 0; n < 799; n++) states[n] = 10'(ppmc_lfsr_pkg::after(n, 10));
+  endfunction
+  localparam states_t States = states();
+
+  logic [9:0] motion_age_q, since, plan_left;  // since: cycles of the motion since t = 0 or the last update tick
+  logic [6:0] ticks;
+  assign ticks = dut.u_motion.u_rate.ticks_q;
+  assign since = 10'(ticks) * 10'd8 + (us_phase == '0 ? 10'd8 : 10'(us_phase));
+  assign plan_left = dut.u_motion.u_calc.left_q;
+  always_ff @(posedge clk_i) begin
+    if (!mon_busy) motion_age_q <= '0;
+    else if (motion_age_q != '1) motion_age_q <= motion_age_q + 10'd1;
+  end
+
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_planned,
+      !mon_busy || (motion_age_q >= 10'd799 ? dut.u_motion.u_rate.planned : !dut.u_motion.u_rate.planned
+          && dut.u_motion.u_rate.u_plan.u_timer.count_q == States[motion_age_q]))
+  `FV_LEMMA(
+      lemma_plan,
+      plan_left <= 10'd785 && (!mon_busy || run || ((motion_age_q == '0) == first && (first || plan_left == '0
+          || 11'(plan_left) + 11'(motion_age_q) <= 11'd786))))
+  `FV_LEMMA(
+      lemma_advance,
+      !(mon_busy && run) || (ticks <= 7'd99 && motion_age_q >= 10'd799 && (since < 10'd4 ? plan_left == '0 : plan_left == '0
+          || 11'(plan_left) + 11'(since) <= 11'd594)))
+  `FV_LEMMA(
+      lemma_advance_times,
+      (!dut.u_motion.u_rate.update_dly_q[0] || since == 10'd1) && (!dut.u_motion.u_rate.update_dly_q[1]
+          || since == 10'd2) && (!dut.u_motion.advance || since == 10'd3)
+          && (!mon_busy || run || {dut.u_motion.u_rate.update_dly_q, dut.u_motion.advance} == '0))
+  `FV_LEMMA(
+      ready_planner,
+      plan_left == '0 || !(dut.u_motion.t0 || dut.u_motion.update || (dut.u_motion.advance && mon_busy)))
+  // verilog_format: on
 
   // ---- boot ---------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_calc, stub for proofs that hold for any result of the planner: V can be loaded in any cycle.
-// pmc006_calc_fv proves the durations of the real one.
+// pmc006_calc, stub for proofs that hold for any results, which can change in any cycle. A run lasts any time
+// up to the bounds of the real block, which tests/pmc006/test_calc_rom.py checks.
 `default_nettype none
 
 module pmc006_calc
@@ -33,12 +33,21 @@ module pmc006_calc
     output logic      [ 6:0] lead_angle_o
 );
 
-  logic [35:0] any;  // not driven; the registers ensure that all blocks read the same value
+  logic [36:0] any;  // not driven; the registers ensure that all blocks read the same value
   logic [ 2:0] phase_q;
 
-  assign busy_o  = 1'b0;
+  logic ends_q;
+  logic [9:0] left_q;  // cycles that are left
+
+  assign busy_o  = left_q != '0;
   assign phase_o = phase_e'(phase_q);
-  always_ff @(posedge clk_i) {phase_q, next_v_o, load_v_o, current_comp_o, lead_angle_o} <= any;
+  always_ff @(posedge clk_i) {ends_q, phase_q, next_v_o, load_v_o, current_comp_o, lead_angle_o} <= any;
+
+  always_ff @(posedge clk_i or negedge rst_ni)
+    if (!rst_ni) left_q <= '0;
+    else if (plan_i) left_q <= 10'd785;
+    else if (advance_i) left_q <= 10'd590;
+    else if (busy_o) left_q <= ends_q ? '0 : left_q - 10'd1;
 
 endmodule
 
