@@ -205,8 +205,9 @@ module pmc006_fv
   logic going_q, going_q2, cause_q, busy_q, began_q, endless_q;  // …_q2: one cycle later
   logic speed_q, speed_q2;  // register SPEED_MODE; resumed in this cycle counts in speed_q2
   logic [30:0] left_q;
-  logic [31:0] pos_q, pos, stpos_q;
-  logic [8:0] angle_q, angle, turn_q;  // turn_q: angle of a step of the motion
+  logic step, step_q;  // step_q: at the pin
+  logic [31:0] pos_q, stpos_q;
+  logic [8:0] angle_q, turn_q;  // turn_q: angle of a step of the motion
 
   // verilog_format: off
   assign may_start = exec && legal && !mon_busy && !set_q.free && flags_q == '0 && edges == '0 && !key;
@@ -217,11 +218,10 @@ module pmc006_fv
   // verilog_format: off
   assign resumes = exec && legal && op == I_RUN && data[0] && mon_busy && endless_q && edges == '0 && !key;
   // verilog_format: on
-  assign pos = pos_q + (!mon_step ? 32'd0 : mon_dir ? 32'd1 : '1);
-  assign angle = angle_q + (!mon_step ? 9'd0 : mon_dir ? turn_q : -turn_q);
+  assign step = dut.step;
 
   always_ff @(posedge clk_i or negedge on)
-    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, pos_q, stpos_q, angle_q} <= {71'd0, 9'd64};
+    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, step_q, pos_q, stpos_q, angle_q} <= {72'd0, 9'd64};
     else begin
       going_q  <= begins || (going_q && !cause);
       going_q2 <= going_q && !cause;
@@ -231,15 +231,17 @@ module pmc006_fv
       speed_q2 <= speed_q || resumes;
       if (cause || (exec && legal && op == I_RUN && !data[0])) speed_q <= 1'b0;
       else if (runs || resumes) speed_q <= 1'b1;
-      pos_q <= set_position ? data : pos;
-      angle_q <= angle;
-      if (stalls) stpos_q <= pos;
+      step_q <= step;
+      if (set_position) pos_q <= data;
+      else if (step) pos_q <= pos_q + (mon_dir ? 32'd1 : '1);
+      if (step) angle_q <= mon_dir ? angle_q + turn_q : angle_q - turn_q;
+      if (stalls) stpos_q <= pos_q;
     end
 
   always_ff @(posedge clk_i) begin
     limits_q <= 14'(set_q.vstart) <= set_q.vmax && 14'(set_q.vstop) <= set_q.vmax;
     if (begins) {endless_q, left_q} <= {runs, data[30:0]};
-    else if (mon_step) left_q <= left_q - 31'd1;
+    else if (step) left_q <= left_q - 31'd1;
     if (begins) begin
       turn_q <= 9'd128;
       for (int unsigned n = 1; n < 8; n++) if (set_q.mstep == 8'(1 << n)) turn_q <= 9'(128 >> n);
@@ -250,9 +252,6 @@ module pmc006_fv
   always_ff @(posedge clk_i or negedge on)
     if (!on) forward_q <= 1'b1;
     else if (begins) forward_q <= set_q.dir;
-
-  logic [30:0] left;
-  assign left = left_q - 31'(mon_step);
 
   logic [2:0] us_phase;  // cycles since the last µs tick
   logic us, first, run, due;
@@ -427,13 +426,13 @@ module pmc006_fv
             && dut.u_motion.speed_q == endless_q))
   `FV_LEMMA(lemma_begin, first == began_q && (!first || (mon_busy && !due && !run
             && !dut.u_motion.u_rate.planned)))
-  `FV_LEMMA(lemma_left, !mon_busy || dut.u_motion.u_rate.left_o == left)
-  `FV_LEMMA(lemma_left_some, !mon_busy || endless_q || left != '0)
+  `FV_LEMMA(lemma_left, !mon_busy || dut.u_motion.u_rate.left_o == left_q)
+  `FV_LEMMA(lemma_left_some, !mon_busy || endless_q || left_q != '0)
   // verilog_format: off
   `FV_LEMMA(
       lemma_last,
       !mon_busy || first || (run && us_phase == 3'd3)
-          || dut.u_motion.u_rate.last_step_q == (left == 31'd1))
+          || dut.u_motion.u_rate.last_step_q == (left_q == 31'd1))
   // verilog_format: on
   `FV_LEMMA(lemma_turn, !mon_busy || 9'(dut.u_motion.increment_q) == turn_q)
   `FV_LEMMA(lemma_direction, mon_dir == forward_q)
@@ -443,25 +442,20 @@ module pmc006_fv
   `FV_LEMMA(stop_no_step, !on || !mon_step || (going_q2 && !cause_q))
   `FV_LEMMA(stop_not_busy, !on || !mon_busy || going_q)
   `FV_LEMMA(stop_in_the_cycle, !on || dut.halt == cause)
-  `FV_LEMMA(stop_before_the_position, !(set_position && dut.step))
+  `FV_LEMMA(stop_before_the_position, !(set_position && step))
   `FV_LEMMA(start_in_the_cycle, !on || {dut.motion_start.start, dut.motion_start.run} == {starts, runs})
   `FV_LEMMA(start_begins, !on || (mon_busy && !busy_q) == began_q)
-  `FV_LEMMA(count_no_more, !on || !mon_step || endless_q || left_q != '0)
+  `FV_LEMMA(count_pin, mon_step == step_q)
+  `FV_LEMMA(count_no_more, !step || endless_q || left_q != '0)
   // verilog_format: off
   `FV_LEMMA(
       count_or_a_cause,
-      !on || !busy_q || mon_busy || cause_q || (endless_q ? !speed_q2 : mon_step && left_q == 31'd1))
+      !on || !busy_q || mon_busy || cause_q || (endless_q ? !speed_q2 : mon_step && left_q == '0))
   // verilog_format: on
-  `FV_LEMMA(count_position, !on || dut.u_control.position == pos)
-  `FV_LEMMA(count_angle, !on || dut.u_drive.angle_q == angle)
+  `FV_LEMMA(count_position, !on || dut.u_control.position == pos_q)
+  `FV_LEMMA(count_angle, !on || dut.u_drive.angle_q == angle_q)
 
   // ---- the planner ends in time -------------------------------------------------------------------------
-
-  typedef logic [798:0][9:0] states_t;
-  function automatic states_t states();
-    for (int unsigned n = 0; n < 799; n++) states[n] = 10'(ppmc_lfsr_pkg::after(n, 10));
-  endfunction
-  localparam states_t States = states();
 
   logic [9:0] motion_age_q, since, plan_left;  // since: cycles of the motion since t = 0 or the last update tick
   logic [6:0] ticks;
@@ -476,8 +470,7 @@ module pmc006_fv
   // verilog_format: off
   `FV_LEMMA(
       lemma_planned,
-      !mon_busy || (motion_age_q >= 10'd799 ? dut.u_motion.u_rate.planned : !dut.u_motion.u_rate.planned
-          && dut.u_motion.u_rate.u_plan.u_timer.count_q == States[motion_age_q]))
+      !mon_busy || dut.u_motion.u_rate.u_plan.count_q == (motion_age_q < 10'd799 ? motion_age_q : 10'd799))
   `FV_LEMMA(
       lemma_plan,
       plan_left <= 10'd785 && (!mon_busy || run || ((motion_age_q == '0) == first && (first || plan_left == '0
@@ -531,7 +524,7 @@ module pmc006_fv
     unique case (op)
       I_ABORT, I_POS_SET: expected = data;
       I_STEP:    expected = accepted_q ? 32'd3 : 32'd0;
-      I_POS:     expected = pos;
+      I_POS:     expected = pos_q;
       I_STPOS:   expected = stpos_q;
       I_RUN:     expected = 32'(speed_q);
       I_STATUS1: expected = 32'({stall_q, set_q.autodec, flags_q, mon_busy});
@@ -597,22 +590,17 @@ module pmc006_fv
 
   // ---- no lock-up ---------------------------------------------------------------------------------------
 
-  logic [12:0] age_q;  // cycles since the frame
   logic [9:0] rest_q;  // cycles in which the line is at rest, at most 1023
   logic [6:0] rx_now;  // phase of the bit, 48 .. 127
   logic [10:0] rx_left;  // cycles to the middle of the stop bit
   assign rx_now  = rx_phase + (dut.u_serial.u_rx.g_modulus.wrapped_q ? 7'd48 : 7'd0);
   assign rx_left = 11'd128 - 11'(rx_now) + 11'd80 * (rx_state == 2'd1 ? 11'd9 : 11'(dut.u_serial.u_rx.bits_left_q));
 
-  always_ff @(posedge clk_i) age_q <= go ? 13'd1 : age_q + 13'd1;
   always_ff @(posedge clk_i or negedge on)
     if (!on) rest_q <= '0;
     else rest_q <= !rxd ? '0 : (rest_q == '1) ? rest_q : rest_q + 10'd1;
 
   // verilog_format: off
-  `FV_LEMMA(
-      lemma_reply_age,
-      !active_q || age_q == 13'd80 * (13'd10 * 13'(byte_q) + 13'(bit_q) - 13'd8) + 13'(units_q))
   `FV_LEMMA(
       lemma_rx,
       !(rx_state inside {2'd1, 2'd2}) || (rx_now >= (rx_state == 2'd1 ? 7'd88 : 7'd48) && rx_left <= 11'd760
@@ -623,7 +611,6 @@ module pmc006_fv
             && dut.u_serial.line)) && (rest_q < 10'd1 || dut.u_serial.u_line.q1_o))
   `FV_LEMMA(lemma_rx_idle_phase, rx_state != 2'd0 || rx_phase inside {[7'd88 : 7'd89]})
 
-  `FV_LEMMA(ready_reply, !active_q || age_q < 13'd6560)
   `FV_LEMMA(ready_instruction, frame_q <= 4'd10)
   `FV_LEMMA(ready_receiver, !on || rest_q < 10'd765 || rx_state == 2'd0)
 
