@@ -179,8 +179,8 @@ module pmc006_fv
   assign needed = (ctl_q.stlen == '0) ? 8'd1 : {1'b0, ctl_q.stlen};
   assign stalls = counts && row_q >= needed - 8'd1;
   // verilog_format: off
-  assign cause = edges != '0 || key || (ctl_q.stcfg[1] && mon_busy && (stall_q || stalls))
-      || (exec && op == I_ABORT) || (exec && legal && op == I_FREE && data[0]);
+  assign cause = edges != '0 || key || (ctl_q.stcfg[1] && mon_busy && (stall_q || stalls)) || (exec && op
+      == I_ABORT) || (exec && legal && op == I_FREE && data[0]);
   // verilog_format: on
 
   always_ff @(posedge clk_i or negedge on)
@@ -209,20 +209,18 @@ module pmc006_fv
   logic [31:0] pos_q, stpos_q;
   logic [8:0] angle_q, turn_q;  // turn_q: angle of a step of the motion
 
-  // verilog_format: off
   assign may_start = exec && legal && !mon_busy && !set_q.free && flags_q == '0 && edges == '0 && !key;
-  // verilog_format: on
   assign starts = may_start && op == I_STEP && limits_q;
   assign runs = may_start && op == I_RUN && data[0] && set_q.vmax != '0;
   assign begins = starts || runs;
-  // verilog_format: off
   assign resumes = exec && legal && op == I_RUN && data[0] && mon_busy && endless_q && edges == '0 && !key;
-  // verilog_format: on
   assign step = dut.step;
 
   always_ff @(posedge clk_i or negedge on)
-    if (!on) {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, step_q, pos_q, stpos_q, angle_q} <= {72'd0, 9'd64};
-    else begin
+    if (!on) begin
+      {going_q, going_q2, cause_q, busy_q, began_q, speed_q, speed_q2, step_q, pos_q, stpos_q} <= '0;
+      angle_q <= 9'd64;
+    end else begin
       going_q  <= begins || (going_q && !cause);
       going_q2 <= going_q && !cause;
       cause_q  <= cause;
@@ -274,6 +272,7 @@ module pmc006_fv
   assign in_frame = of_frame && ex inside {ExCheck, ExExec, ExReply};
   assign rx_off = dut.u_serial.rx_off_q;
   assign bit_phase = dut.u_serial.phase_q;
+
   // The reply, as in pmc006_serial_fv, with a bit of 80 cycles.
   logic active_q, next_bit;
   logic [3:0] byte_q, bit_q;
@@ -306,16 +305,23 @@ module pmc006_fv
     if (!on) active_q <= 1'b0;
     else active_q <= go || (active_q && !(next_bit && byte_q == 4'd8 && bit_q == 4'd9));
 
-  `FV_LEMMA(lemma_range, !active_q || (byte_q <= 4'd8 && bit_q <= 4'd9 && (byte_q != '0 || bit_q >= 4'd8)
-            && units_q < 7'd80))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_range,
+      !active_q || (byte_q <= 4'd8 && bit_q <= 4'd9 && (byte_q != '0 || bit_q >= 4'd8) && units_q < 7'd80))
+  // verilog_format: on
   `FV_LEMMA(lemma_tick, !active_q || dut.u_serial.bit_tick_q == (phase >= 8'd80))
   `FV_LEMMA(lemma_phase, !active_q || bit_phase == (phase >= 8'd80 ? 7'(phase - 8'd80) : 7'(phase + 8'd48)))
   `FV_LEMMA(lemma_byte, !active_q || dut.u_serial.byte_index_q == byte_q)
   `FV_LEMMA(lemma_bit, !active_q || dut.u_serial.bits_left_q == (byte_q == '0 ? 4'd0 : 4'd9 - bit_q))
   `FV_LEMMA(lemma_driver, de == (active_q && (byte_q != '0 || bit_q == 4'd9)))
   `FV_LEMMA(lemma_rx_off, rx_off == (active_q && !tail))
-  `FV_LEMMA(lemma_valid, !(dut.u_serial.valid || dut.u_serial.error) || (rx_state != 2'd1 && rx_state != 2'd2 && rx_phase == 7'd88
-            && !dut.u_serial.u_rx.g_modulus.wrapped_q))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_valid,
+      !(dut.u_serial.valid || dut.u_serial.error) || (rx_state != 2'd1 && rx_state != 2'd2 && rx_phase
+          == 7'd88 && !dut.u_serial.u_rx.g_modulus.wrapped_q))
+  // verilog_format: on
   `FV_LEMMA(lemma_no_valid, !(dut.u_serial.valid && active_q))
   // verilog_format: off
   `FV_LEMMA(
@@ -329,12 +335,17 @@ module pmc006_fv
           && 8'(rx_phase) <= 8'd48 + 8'(units_q) && rx_phase >= 7'd89))
   // verilog_format: on
   `FV_LEMMA(lemma_rx_idle, !active_q || lead || tail || rx_idle)
-  `FV_LEMMA(lemma_gate,
-            !active_q || (lead && units_q < 7'd2) || (tail && units_q >= 7'd41) || !dut.u_serial.line_high_q)
-  `FV_LEMMA(lemma_first,
-            !active_q || (lead && units_q < 7'd3) || (tail && units_q >= 7'd42) || dut.u_serial.u_rx.u_sync.q1_o)
-  `FV_LEMMA(lemma_second,
-            !active_q || (lead && units_q < 7'd4) || (tail && units_q >= 7'd43) || dut.u_serial.u_rx.line)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_gate,
+      !active_q || (lead && units_q < 7'd2) || (tail && units_q >= 7'd41) || !dut.u_serial.line_high_q)
+  `FV_LEMMA(
+      lemma_first,
+      !active_q || (lead && units_q < 7'd3) || (tail && units_q >= 7'd42) || dut.u_serial.u_rx.u_sync.q1_o)
+  `FV_LEMMA(
+      lemma_second,
+      !active_q || (lead && units_q < 7'd4) || (tail && units_q >= 7'd43) || dut.u_serial.u_rx.line)
+  // verilog_format: on
 
   `FV_LEMMA(lemma_place, dut.u_serial.u_frame.index_q == place_q)
   `FV_LEMMA(lemma_head, place_q < 1 || bytes_q[0] == 8'hA5)
@@ -351,35 +362,45 @@ module pmc006_fv
       lemma_frame,
       frame_q == '0 || (bytes_q[0] == 8'hA5 && dut.u_serial.u_frame.code_q == bytes_q[2]
           && dut.u_serial.u_frame.data_q == bytes_q[6:3]))
+  // verilog_format: on
   `FV_LEMMA(lemma_no_byte, frame_q == '0 || (lead && units_q == 7'(frame_q)))
   `FV_LEMMA(lemma_in_frame, !on || (frame_q != '0) == (pending || in_frame))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_pending,
-      !pending || (frame_q != '0 && ex <= ExExec && frame_q <= (ex == ExIdle ? 4'd6 : 4'(ex))
-          && (ex == ExIdle || cmd.source == FromProgram)))
+      !pending || (frame_q != '0 && ex <= ExExec && frame_q <= (ex == ExIdle ? 4'd6 : 4'(ex)) && (ex == ExIdle
+          || cmd.source == FromProgram)))
   `FV_LEMMA(
       lemma_age,
       !in_frame || (!pending && frame_q <= (ex == ExCheck ? 4'd7 : ex == ExReply ? 4'd10 : us_phase == 3'd3
           ? 4'd9 : 4'd8)))
   `FV_LEMMA(
       lemma_try,
-      cmd.source != FromTry || !(ex inside {ExFirst, ExSecond, ExDecode, ExCheck, ExExec})
-          || (lead && units_q <= 7'd11 + 7'(ex)))
+      cmd.source != FromTry || !(ex inside {ExFirst, ExSecond, ExDecode, ExCheck, ExExec}) || (lead
+          && units_q <= 7'd11 + 7'(ex)))
   // verilog_format: on
   `FV_LEMMA(lemma_exec, ex <= ExReply && (ex != ExReply || of_frame))
   `FV_LEMMA(lemma_word_states, !(ex inside {ExFirst, ExSecond, ExDecode}) || of_program)
   `FV_LEMMA(lemma_try_next, !dut.u_control.u_exec.try_next_q || !on || (ex == ExReply && of_frame))
-  `FV_LEMMA(lemma_of_boot, !of_boot || ex == ExIdle || (boot && ee == 4'd11
-            && dut.u_control.u_eeprom.phase_q == (ex == ExCheck ? 3'd4 : 3'd5) && ex inside {ExCheck, ExExec}))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_of_boot,
+      !of_boot || ex == ExIdle || (boot && ee == 4'd11 && dut.u_control.u_eeprom.phase_q == (ex == ExCheck
+          ? 3'd4 : 3'd5) && ex inside {ExCheck, ExExec}))
+  // verilog_format: on
   `FV_LEMMA(lemma_boot, !boot || (frame_q == '0 && !rx_off && !de && place_q == '0))
   // verilog_format: off
   `FV_LEMMA(
       lemma_read,
-      !dut.u_control.u_eeprom.read_q || (boot && !dut.u_control.u_eeprom.factory_q
-          && ee inside {[4'd2 : 4'd9]}))
+      !dut.u_control.u_eeprom.read_q || (boot && !dut.u_control.u_eeprom.factory_q && ee inside {[4'd2
+          : 4'd9]}))
   // verilog_format: on
   `FV_LEMMA(lemma_load, !(ee inside {4'd10, 4'd11}) || (boot && !dut.u_control.u_eeprom.factory_q))
-  `FV_LEMMA(lemma_bus, !(dut.u_control.u_eeprom.done || dut.u_control.u_eeprom.fail) || ee inside {[4'd1 : 4'd9]})
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_bus,
+      !(dut.u_control.u_eeprom.done || dut.u_control.u_eeprom.fail) || ee inside {[4'd1 : 4'd9]})
+  // verilog_format: on
 
   // ---- lemmas: instruction ------------------------------------------------------------------------------
 
@@ -388,11 +409,9 @@ module pmc006_fv
   assign rom_op = dut.u_control.u_exec.op_q;
   assign limits = dut.u_control.u_exec.u_data_check.limits_q;
   assign limits_of_op = dut.u_control.u_exec.u_data_check.rom[{of_program, rom_op}];
-  // verilog_format: off
-  `FV_LEMMA(
-      lemma_limits,
-      !(ex inside {ExCheck, ExExec} || (ex == ExReply)) || limits == limits_of_op)
+  `FV_LEMMA(lemma_limits, !(ex inside {ExCheck, ExExec, ExReply}) || limits == limits_of_op)
   `FV_LEMMA(lemma_op, !in_frame || (rom_op == op && cmd.data == data && cmd.option == '0))
+  // verilog_format: off
   `FV_LEMMA(
       lemma_no_host_op,
       !(ex inside {ExCheck, ExExec}) || of_frame
@@ -401,9 +420,11 @@ module pmc006_fv
       lemma_boot_op,
       !(of_boot && ex inside {ExCheck, ExExec})
           || !(rom_op inside {I_STEP, I_RUN, P_OUT, P_WAIT, P_RESET_EN, P_PAUSE_EN}))
-  `FV_LEMMA(lemma_legal, !(exec || set_position) || dut.u_control.legal == legal
-      || !(op inside {I_STEP, I_MSTEP, I_RUN, I_DIR, I_FREE, I_OFFLINE, I_AUTODEC, I_EXTEN, I_TRIGGER, I_VSTART,
-      I_VSTOP, I_VMAX, I_STCFG, I_STLEN, I_STLVL, I_ADDR}))
+  `FV_LEMMA(
+      lemma_legal,
+      !(exec || set_position) || dut.u_control.legal == legal
+          || !(op inside {I_STEP, I_MSTEP, I_RUN, I_DIR, I_FREE, I_OFFLINE, I_AUTODEC, I_EXTEN, I_TRIGGER,
+          I_VSTART, I_VSTOP, I_VMAX, I_STCFG, I_STLEN, I_STLVL, I_ADDR}))
   // verilog_format: on
   `FV_LEMMA(lemma_settings, motor_key(dut.settings) == motor_key(set_q))
   `FV_LEMMA(lemma_mstep, legal_mstep(set_q.mstep))
@@ -412,8 +433,12 @@ module pmc006_fv
   // ---- lemmas: motion -----------------------------------------------------------------------------------
 
   `FV_LEMMA(lemma_us, us == (us_phase == '0))
-  `FV_LEMMA(lemma_us_times, (!dut.u_motion.u_rate.accumulate_q || us_phase == 3'd1) && (!due || us_phase == 3'd2)
-            && (!mon_step || us_phase == 3'd3))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_us_times,
+      (!dut.u_motion.u_rate.accumulate_q || us_phase == 3'd1) && (!due || us_phase == 3'd2) && (!mon_step
+          || us_phase == 3'd3))
+  // verilog_format: on
   `FV_LEMMA(lemma_run, !mon_busy || run || !(dut.u_motion.u_rate.accumulate_q || due))
   `FV_LEMMA(lemma_pins, dut.ext_sync == ext_h[1] && dut.u_control.u_ext_stop.ext_prev_q == ext_h[2])
   `FV_LEMMA(lemma_flags, dut.u_control.flags == flags_q)
@@ -422,17 +447,20 @@ module pmc006_fv
   `FV_LEMMA(lemma_row, !mon_busy || dut.u_control.u_stall.count_q == (row_q[7] ? 7'd127 : row_q[6:0]))
   `FV_LEMMA(lemma_limits_of_speed, !exec || dut.u_control.u_start_check.limits_q == limits_q)
   `FV_LEMMA(lemma_speed_mode, dut.u_control.speed_mode == speed_q && (!speed_q || (mon_busy && endless_q)))
-  `FV_LEMMA(lemma_kind, !mon_busy || (dut.u_control.u_start_check.endless_q == endless_q
-            && dut.u_motion.speed_q == endless_q))
-  `FV_LEMMA(lemma_begin, first == began_q && (!first || (mon_busy && !due && !run
-            && !dut.u_motion.u_rate.planned)))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_kind,
+      !mon_busy || (dut.u_control.u_start_check.endless_q == endless_q && dut.u_motion.speed_q == endless_q))
+  `FV_LEMMA(
+      lemma_begin,
+      first == began_q && (!first || (mon_busy && !due && !run && !dut.u_motion.u_rate.planned)))
+  // verilog_format: on
   `FV_LEMMA(lemma_left, !mon_busy || dut.u_motion.u_rate.left_o == left_q)
   `FV_LEMMA(lemma_left_some, !mon_busy || endless_q || left_q != '0)
   // verilog_format: off
   `FV_LEMMA(
       lemma_last,
-      !mon_busy || first || (run && us_phase == 3'd3)
-          || dut.u_motion.u_rate.last_step_q == (left_q == 31'd1))
+      !mon_busy || first || (run && us_phase == 3'd3) || dut.u_motion.u_rate.last_step_q == (left_q == 31'd1))
   // verilog_format: on
   `FV_LEMMA(lemma_turn, !mon_busy || 9'(dut.u_motion.increment_q) == turn_q)
   `FV_LEMMA(lemma_direction, mon_dir == forward_q)
@@ -457,7 +485,8 @@ module pmc006_fv
 
   // ---- the planner ends in time -------------------------------------------------------------------------
 
-  logic [9:0] motion_age_q, since, plan_left;  // since: cycles of the motion since t = 0 or the last update tick
+  logic [9:0] motion_age_q, plan_left;
+  logic [9:0] since;  // cycles of the motion since t = 0 or the last update tick
   logic [6:0] ticks;
   assign ticks = dut.u_motion.u_rate.ticks_q;
   assign since = 10'(ticks) * 10'd8 + (us_phase == '0 ? 10'd8 : 10'(us_phase));
@@ -477,13 +506,13 @@ module pmc006_fv
           || 11'(plan_left) + 11'(motion_age_q) <= 11'd786))))
   `FV_LEMMA(
       lemma_advance,
-      !(mon_busy && run) || (ticks <= 7'd99 && motion_age_q >= 10'd799 && (since < 10'd4 ? plan_left == '0 : plan_left == '0
-          || 11'(plan_left) + 11'(since) <= 11'd594)))
+      !(mon_busy && run) || (ticks <= 7'd99 && motion_age_q >= 10'd799 && (since < 10'd4 ? plan_left == '0
+          : plan_left == '0 || 11'(plan_left) + 11'(since) <= 11'd594)))
   `FV_LEMMA(
       lemma_advance_times,
       (!dut.u_motion.u_rate.update_dly_q[0] || since == 10'd1) && (!dut.u_motion.u_rate.update_dly_q[1]
-          || since == 10'd2) && (!dut.u_motion.advance || since == 10'd3)
-          && (!mon_busy || run || {dut.u_motion.u_rate.update_dly_q, dut.u_motion.advance} == '0))
+          || since == 10'd2) && (!dut.u_motion.advance || since == 10'd3) && (!mon_busy || run
+          || {dut.u_motion.u_rate.update_dly_q, dut.u_motion.advance} == '0))
   `FV_LEMMA(
       ready_planner,
       plan_left == '0 || !(dut.u_motion.t0 || dut.u_motion.update || (dut.u_motion.advance && mon_busy)))
@@ -499,19 +528,24 @@ module pmc006_fv
   // verilog_format: off
   `FV_ASSUME(
       page_stands,
-      !(stored && ee == 4'd11 && dut.u_control.u_eeprom.phase_q == 3'd5)
-          || dut.u_control.u_eeprom.load_op_o == I_NONE || dut.u_control.legal)
+      !(stored && ee == 4'd11 && dut.u_control.u_eeprom.phase_q == 3'd5) || dut.u_control.u_eeprom.load_op_o
+          == I_NONE || dut.u_control.legal)
   // verilog_format: on
 
   `FV_LEMMA(lemma_stored, !stored || (boot && (ee == 4'd12 || (ee == 4'd11 && !page_bad))))
   `FV_LEMMA(lemma_offline, !boot || !ctl_q.offline || (stored && !page_bad))
   `FV_LEMMA(lemma_factory, !(boot && dut.u_control.u_eeprom.factory_q) || !dut.u_control.rst_settings_n)
-  `FV_LEMMA(boot_no_motion, !boot || (!mon_busy && dut.u_control.u_program.state_q == 0 && !dut.u_control.u_program.rsten_q
-            && (ex == ExIdle || of_boot)))
+  // verilog_format: off
+  `FV_LEMMA(
+      boot_no_motion,
+      !boot || (!mon_busy && dut.u_control.u_program.state_q == 0 && !dut.u_control.u_program.rsten_q && (ex
+          == ExIdle || of_boot)))
+  // verilog_format: on
 
   // ---- reply --------------------------------------------------------------------------------------------
 
   logic known, known_q, accepted_q, sampled_reply_q;
+  logic exec_q, set_position_q;
   logic [31:0] expected, expected_q, reply_q;
   logic [7:0] reply_sum_q, char_q, next_char;
   logic line;
@@ -523,16 +557,16 @@ module pmc006_fv
     known = 1'b1;
     unique case (op)
       I_ABORT, I_POS_SET: expected = data;
-      I_STEP:    expected = accepted_q ? 32'd3 : 32'd0;
-      I_POS:     expected = pos_q;
-      I_STPOS:   expected = stpos_q;
-      I_RUN:     expected = 32'(speed_q);
+      I_STEP: expected = accepted_q ? 32'd3 : 32'd0;
+      I_POS: expected = pos_q;
+      I_STPOS: expected = stpos_q;
+      I_RUN: expected = 32'(speed_q);
       I_STATUS1: expected = 32'({stall_q, set_q.autodec, flags_q, mon_busy});
       I_STATUS2: expected = 32'({ctl_q.offline, set_q.dir, speed_q, ctl_q.exten, set_q.free});
-      I_PORTS:   expected = 32'({ext_h[1], gpi_h[1][4:3], gpo, gpi_h[1][2:0]});
-      I_OUT:     expected = 32'({gpo_q, 3'd0});
+      I_PORTS: expected = 32'({ext_h[1], gpi_h[1][4:3], gpo, gpi_h[1][2:0]});
+      I_OUT: expected = 32'({gpo_q, 3'd0});
       I_CLEAR1, I_CLEAR2, I_STALL, I_NONE: expected = '0;
-      default:   {known, expected} = '0;
+      default: {known, expected} = '0;
     endcase
   end
 
@@ -563,13 +597,14 @@ module pmc006_fv
   end
 
   always_ff @(posedge clk_i or negedge on)
-    if (!on) {sampled_reply_q, gpo_q, gpo_pins_q, gpi_h} <= {11'd0, 10'h3FF};
+    if (!on) {exec_q, set_position_q, sampled_reply_q, gpo_q, gpo_pins_q, gpi_h} <= {13'd0, 10'h3FF};
     else begin
-      sampled_reply_q <= reply_sample;
+      {exec_q, set_position_q, sampled_reply_q} <= {exec, set_position, reply_sample};
       gpi_h <= {gpi_h[0], gpi};
       gpo_pins_q <= gpo_q | {stall_q && ctl_q.stcfg[2], 4'd0};
       if (exec && op == I_OUT) gpo_q <= data[7:3];
-      for (int unsigned n = 0; n < 5; n++) if (exec && op == P_OUT && cmd.option == 4'(n + 1)) gpo_q[n] <= data[0];
+      for (int unsigned n = 0; n < 5; n++)
+      if (exec && op == P_OUT && cmd.option == 4'(n + 1)) gpo_q[n] <= data[0];
     end
 
   `FV_LEMMA(lemma_stall_position, dut.u_control.stall_position == stpos_q)
@@ -579,9 +614,13 @@ module pmc006_fv
   `FV_LEMMA(lemma_sampled, !sampled_reply_q || (lead && frame_q == '0 && units_q <= 7'd11))
   `FV_LEMMA(lemma_reply, !active_q || frame_q != '0 || sampled_reply_q || dut.reply == reply_q)
   `FV_LEMMA(lemma_bits, !active_q || byte_q == '0 || dut.u_serial.bits_q == 8'({9'h1FF, char_q} >> bit_q))
-  `FV_LEMMA(lemma_reply_sum,
-            !active_q || dut.u_serial.sum_q == ((byte_q == '0 || bit_q != '0) ? reply_sum_q : reply_sum_q - char_q))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_reply_sum,
+      !active_q || dut.u_serial.sum_q == ((byte_q == '0 || bit_q != '0) ? reply_sum_q : reply_sum_q - char_q))
+  // verilog_format: on
 
+  `FV_LEMMA(reply_after_execution, !reply_sample || (op == I_POS_SET ? set_position_q : exec_q))
   `FV_LEMMA(reply_data, !sampled_reply_q || !known_q || dut.reply == expected_q)
   `FV_LEMMA(reply_bits, txd == line)
   `FV_LEMMA(reply_of_a_frame, !de || active_q)
@@ -590,11 +629,14 @@ module pmc006_fv
 
   // ---- no lock-up ---------------------------------------------------------------------------------------
 
-  logic [9:0] rest_q;  // cycles in which the line is at rest, at most 1023
-  logic [6:0] rx_now;  // phase of the bit, 48 .. 127
+  logic [ 9:0] rest_q;  // cycles in which the line is at rest, at most 1023
+  logic [ 6:0] rx_now;  // phase of the bit, 48 .. 127
   logic [10:0] rx_left;  // cycles to the middle of the stop bit
   assign rx_now  = rx_phase + (dut.u_serial.u_rx.g_modulus.wrapped_q ? 7'd48 : 7'd0);
-  assign rx_left = 11'd128 - 11'(rx_now) + 11'd80 * (rx_state == 2'd1 ? 11'd9 : 11'(dut.u_serial.u_rx.bits_left_q));
+  // verilog_format: off
+  assign rx_left = 11'd128 - 11'(rx_now) + 11'd80 * (rx_state == 2'd1 ? 11'd9
+      : 11'(dut.u_serial.u_rx.bits_left_q));
+  // verilog_format: on
 
   always_ff @(posedge clk_i or negedge on)
     if (!on) rest_q <= '0;
@@ -605,10 +647,14 @@ module pmc006_fv
       lemma_rx,
       !(rx_state inside {2'd1, 2'd2}) || (rx_now >= (rx_state == 2'd1 ? 7'd88 : 7'd48) && rx_left <= 11'd760
           && (rest_q < 10'd4 || 11'(rest_q) + rx_left <= 11'd764)))
+  `FV_LEMMA(
+      lemma_rx_wrapped,
+      !on || !dut.u_serial.u_rx.g_modulus.wrapped_q || (rx_state == 2'd2 && rx_phase == '0))
+  `FV_LEMMA(
+      lemma_rx_line,
+      (rest_q < 10'd1 || dut.u_serial.u_rx.u_sync.q1_o) && (rest_q < 10'd2 || (dut.u_serial.u_rx.line
+          && dut.u_serial.line)) && (rest_q < 10'd1 || dut.u_serial.u_line.q1_o))
   // verilog_format: on
-  `FV_LEMMA(lemma_rx_wrapped, !on || !dut.u_serial.u_rx.g_modulus.wrapped_q || (rx_state == 2'd2 && rx_phase == '0))
-  `FV_LEMMA(lemma_rx_line, (rest_q < 10'd1 || dut.u_serial.u_rx.u_sync.q1_o) && (rest_q < 10'd2 || (dut.u_serial.u_rx.line
-            && dut.u_serial.line)) && (rest_q < 10'd1 || dut.u_serial.u_line.q1_o))
   `FV_LEMMA(lemma_rx_idle_phase, rx_state != 2'd0 || rx_phase inside {[7'd88 : 7'd89]})
 
   `FV_LEMMA(ready_instruction, frame_q <= 4'd10)
@@ -626,8 +672,8 @@ module pmc006_fv
   always_ff @(posedge clk_i or negedge on)
     if (!on) {bridge_q, off_age_q, a_q, b_q} <= '0;
     else begin
-      bridge_q <= !off;
-      off_age_q <= !off ? '0 : (off_age_q == '1) ? off_age_q : off_age_q + 6'd1;
+      bridge_q   <= !off;
+      off_age_q  <= !off ? '0 : (off_age_q == '1) ? off_age_q : off_age_q + 6'd1;
       {a_q, b_q} <= {m11, m10, m21, m20};
     end
 
@@ -639,29 +685,36 @@ module pmc006_fv
       (refs_cycle == '0 ? off_age_q < 6'd32 : off_age_q < 6'(refs_cycle)) || dut.u_drive.u_refs.off_q)
   `FV_LEMMA(
       lemma_refs_zero,
-      !dut.u_drive.u_refs.off_q || refs_cycle == '0 || ((refs_cycle < 5'd3 || dut.u_drive.u_refs.reduced_q == '0)
-          && (refs_cycle < 5'd9 || dut.u_drive.u_refs.product_q == 9'(9'd256 >> (refs_cycle - 5'd8)) >> 1
-          || refs_cycle > 5'd16)
-          && (refs_cycle < 5'd17 || dut.u_drive.u_refs.a_q == '0) && (refs_cycle < 5'd17 || refs_cycle > 5'd24
+      !dut.u_drive.u_refs.off_q || refs_cycle == '0 || ((refs_cycle < 5'd3 || dut.u_drive.u_refs.reduced_q
+          == '0) && (refs_cycle < 5'd9 || dut.u_drive.u_refs.product_q
+          == 9'(9'd256 >> (refs_cycle - 5'd8)) >> 1 || refs_cycle > 5'd16) && (refs_cycle < 5'd17
+          || dut.u_drive.u_refs.a_q == '0) && (refs_cycle < 5'd17 || refs_cycle > 5'd24
           || dut.u_drive.u_refs.product_q == 9'(9'd128 >> (refs_cycle - 5'd16)))))
   `FV_LEMMA(
       lemma_refs,
       !(off_age_q >= 6'd32 + 6'(refs_cycle) || (refs_cycle >= 5'd25 && off_age_q >= 6'(refs_cycle)))
           || {phase_a_ref, phase_b_ref, phase_a_sign, phase_b_sign} == '0)
+  `FV_LEMMA(
+      bridge_off,
+      bridge_a_en == bridge_q && bridge_b_en == bridge_q && (bridge_q || {m10, m11, m20, m21} == '0))
   // verilog_format: on
-  `FV_LEMMA(bridge_off, bridge_a_en == bridge_q && bridge_b_en == bridge_q && (bridge_q || {m10, m11, m20, m21} == '0))
   `FV_LEMMA(bridge_legal, {m10, m11} != '1 && {m20, m21} != '1)
   `FV_LEMMA(bridge_off_between, !(m10 && a_q[1]) && !(m11 && a_q[0]) && !(m20 && b_q[1]) && !(m21 && b_q[0]))
-  `FV_LEMMA(bridge_no_current, off_age_q < 6'd56 || {phase_a_ref, phase_b_ref, phase_a_sign, phase_b_sign} == '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      bridge_no_current,
+      off_age_q < 6'd56 || {phase_a_ref, phase_b_ref, phase_a_sign, phase_b_sign} == '0)
+  // verilog_format: on
 
   // ---- reset --------------------------------------------------------------------------------------------
 
   // verilog_format: off
   `FV_ASSERT(
       reset_pins,
-      pin_rst_n || ({de, gpo, phase_a_ref, phase_a_sign, phase_b_ref, phase_b_sign, pwm_a_ref, pwm_b_ref, bridge_a_en,
-          bridge_b_en, m10, m11, m20, m21, scl_oe, sda_oe, mon_step, mon_busy} == '0 && txd && ext1_pu && ext2_pu
-          && mon_dir))
+      pin_rst_n
+          || ({de, gpo, phase_a_ref, phase_a_sign, phase_b_ref, phase_b_sign, pwm_a_ref, pwm_b_ref,
+          bridge_a_en, bridge_b_en, m10, m11, m20, m21, scl_oe, sda_oe, mon_step, mon_busy}
+          == '0 && txd && ext1_pu && ext2_pu && mon_dir))
   `FV_ASSERT(
       reset_state,
       pin_rst_n || (boot && dut.u_control.position == '0 && dut.u_control.flags == '0 && !dut.u_control.stall

@@ -32,7 +32,7 @@ module pmc006_settings_fv
 
   // Value of each register; 0: no register.
   function automatic logic [None:0][13:0] values(motor_settings_t s, control_settings_t c);
-    values = '0;
+    values             = '0;
     values[RegMstep]   = 14'(s.mstep);
     values[RegCurrent] = 14'(s.cur);
     values[RegAcc]     = 14'(s.acc);
@@ -59,9 +59,9 @@ module pmc006_settings_fv
   localparam logic [None:0][13:0] Factory = values(SETTINGS_RESET, CONTROL_RESET);
 
   logic [None:0][13:0] now, last_q, words;  // words: contents of the RAM
-  logic [None:0] differs, copies, fills;
+  logic [None:0] copies, fills, wrong;
   logic [13:0] data, sampled_q;
-  logic write, write_q, fresh_q;
+  logic write, write_q, fresh_q, kept_q;  // kept_q: no reset since the last cycle
   reg_access_t access_q;
   logic [13:0] data_q;
   logic [4:0] count;
@@ -90,9 +90,8 @@ module pmc006_settings_fv
 
   always_comb
     for (int unsigned n = 0; n <= None; n++) begin
-      differs[n] = now[n] != last_q[n];
-      copies[n]  = n < First || words[n] == now[n];
-      fills[n]   = n < First || n >= 32'(count) || words[n] == now[n];
+      copies[n] = n < First || words[n] == now[n];
+      fills[n]  = n < First || n >= 32'(count) || words[n] == now[n];
     end
 
   always_ff @(posedge clk_i) begin
@@ -100,19 +99,32 @@ module pmc006_settings_fv
     if (sample_i) sampled_q <= now[access_i.reg_id];
   end
   always_ff @(posedge clk_i or negedge rst_dut_n)
-    if (!rst_dut_n) fresh_q <= 1'b0;
-    else fresh_q <= sample_i || fresh_q;
+    if (!rst_dut_n) {fresh_q, kept_q} <= '0;
+    else {fresh_q, kept_q} <= {sample_i || fresh_q, 1'b1};
 
-  `FV_ASSUME(a_register, access_i.reg_id inside {[5'(First) : 5'(None)]} && (access_i.reg_id != RegNone || !access_i.write))
+  // verilog_format: off
+  `FV_ASSUME(
+      a_register,
+      access_i.reg_id inside {[5'(First) : 5'(None)]} && (access_i.reg_id != RegNone || !access_i.write))
+  // verilog_format: on
   `FV_ASSUME(legal_data, !write || (data & ~Ones[access_i.reg_id]) == '0)
   `FV_ASSUME(filled_in_time, !filling || !(write_i || sample_i))
 
   `FV_LEMMA(lemma_source, source == '1)
-  `FV_LEMMA(lemma_filling, !filling || (!fresh_q && now == Factory && fills == '1
-            && (count < 5'(First) || count > 5'(None) || value_o == Factory[count])))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_filling,
+      !filling || (!fresh_q && now == Factory && fills == '1 && (count < 5'(First) || count > 5'(None)
+          || value_o == Factory[count])))
+  // verilog_format: on
   `FV_LEMMA(lemma_count, !filling || count != '0)
   `FV_LEMMA(lemma_copies, filling || copies == '1)
 
+  always_comb
+    for (int unsigned n = 0; n <= None; n++)
+      wrong[n] = now[n] != ((write_q && 5'(n) == access_q.reg_id) ? data_q : last_q[n]);
+
+  `FV_LEMMA(write_changes_one, !kept_q || wrong == '0)
   `FV_LEMMA(reply_of_the_register, !fresh_q || value_o == sampled_q)
   `FV_COVER(seen_reply, fresh_q && value_o == 14'd9 && write_q)
 
