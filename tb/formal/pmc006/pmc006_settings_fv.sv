@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pmc006_settings_fv: proves that a write changes only its register, and that a reply reads this register from
-// the RAM.
+// pmc006_settings_fv: proves that a write changes only its register, and that a reply reads this register
+// from the RAM.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none
@@ -106,8 +106,14 @@ module pmc006_settings_fv
   `FV_ASSUME(
       a_register,
       access_i.reg_id inside {[5'(First) : 5'(None)]} && (access_i.reg_id != RegNone || !access_i.write))
+  `FV_ASSUME(
+      legal_data,
+      !write || ((data & ~Ones[access_i.reg_id]) == '0 && (cmd_i.op != I_ACC || data <= 14'd6)))
+  `FV_ASSUME(
+      register_of_op,
+      !write || ((cmd_i.op == I_ACC) == (access_i.reg_id == RegAcc) && (cmd_i.op == I_EXTEN)
+          == (access_i.reg_id == RegExten)))
   // verilog_format: on
-  `FV_ASSUME(legal_data, !write || (data & ~Ones[access_i.reg_id]) == '0)
   `FV_ASSUME(filled_in_time, !filling || !(write_i || sample_i))
 
   `FV_LEMMA(lemma_source, source == '1)
