@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fv: proves a complete PPMC-312 from its host pins to its motor pins, with TIMING = "FAST", a clock
 // of 8 MHz and a crystal of 16 MHz (a pulse has 40 cycles). Each word of a RAM may have any value in every
-// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained.
+// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained. A run
+// begins with a reset or in any state of the lemmas, and the lemmas are proved by induction.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none
@@ -132,8 +133,11 @@ module ppmc312_fv
   `FV_LEMMA(no_pulse_after_a_cause, !(moved && (alarm_q || limit_q)))
   `FV_LEMMA(no_pulse_without_event, !moved || fire_q)
   `FV_LEMMA(no_pulse_without_a_motion, !fire || output_on)
-  `FV_LEMMA(no_start_without_a_motion_code,
-             !start || block.code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT})
+  // verilog_format: off
+  `FV_LEMMA(
+      no_start_without_a_motion_code,
+      !start || block.code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT})
+  // verilog_format: on
   `FV_LEMMA(no_start_while_moving, !start || (!output_on && dut.status == StatusNor))
   `FV_LEMMA(no_pulse_with_wrong_dir, !moved || dir == (ccw_q ^ (zero_q && second_q)))
 
@@ -167,14 +171,22 @@ module ppmc312_fv
   `FV_LEMMA(written_count, !on || !launch_q || (endless == endless_q && (endless || left == wanted_q)))
   `FV_LEMMA(count_down, !on || launch_q || left == left_q - 32'(fire_q))
   `FV_LEMMA(count_no_more, !fire || endless || left != '0)
-  `FV_LEMMA(count_or_a_cause, !on || !stop || ($onehot(cause)
-             && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
+  // verilog_format: off
+  `FV_LEMMA(
+      count_or_a_cause,
+      !on || !stop || ($onehot(cause) && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
+  // verilog_format: on
   `FV_LEMMA(count_cause_limit, !on || !stop_q || !cause_q.stl || limit_q)
   `FV_LEMMA(count_cause_alarm, !on || !stop_q || !cause_q.als || alarm_q || alarm_acts || multi_q)
-  `FV_LEMMA(position_counts_pulses,
-             !on || pos == (set_pos_q ? value_q : pos_q + (!fire_q2 ? 32'd0 : dir_q ? '1 : 32'd1)))
+  // verilog_format: off
+  `FV_LEMMA(
+      position_counts_pulses,
+      !on || pos == (set_pos_q ? value_q : pos_q + (!fire_q2 ? 32'd0 : dir_q ? '1 : 32'd1)))
+  // verilog_format: on
 
-  // Lemmas: the instruction does not change while it starts a motion; registers of the motion.
+  // ---- lemmas -------------------------------------------------------------------------------------
+
+  // The instruction does not change while it starts a motion; registers of the motion.
   logic idle, held, pulses, last;
   logic [2:0] motion_state, move_state;
   instr_info_t info;
@@ -194,7 +206,8 @@ module ppmc312_fv
   assign by_origin = dut.u_core.u_axis.u_motion.by_origin_q;
   assign start_delay = dut.u_core.u_axis.u_motion.start_delay_q;
   assign up = dut.u_core.u_axis.u_motion.u_interval.up;
-  assign {fetching, valid} = {dut.u_core.u_instr.u_exec.u_fetch.run_q, dut.u_core.u_instr.u_exec.u_fetch.valid_q};
+  assign fetching = dut.u_core.u_instr.u_exec.u_fetch.run_q;
+  assign valid = dut.u_core.u_instr.u_exec.u_fetch.valid_q;
   assign reads_block = fetching && !dut.u_core.u_instr.u_exec.u_fetch.copy_q;
   assign checks = dut.u_core.u_instr.u_exec.state_q inside {[4'd3 : 4'd6]};
   assign at = dut.u_core.u_instr.u_exec.u_fetch.at_q;
@@ -204,9 +217,8 @@ module ppmc312_fv
   // verilog_format: off
   `FV_LEMMA(
       lemma_levels,
-      !on
-          || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n}
-              == {alarm_h[1], cw_h[1], ccw_h[1]}))
+      !on || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n}
+          == {alarm_h[1], cw_h[1], ccw_h[1]}))
   // verilog_format: on
   `FV_LEMMA(lemma_states, !on || motion_state <= 3'd4 && move_state <= 3'd4)
   `FV_LEMMA(lemma_move, !on || (move_state != '0) == (dut.u_core.u_instr.u_exec.state_q == 4'd10))
@@ -219,10 +231,9 @@ module ppmc312_fv
       lemma_copy,
       !on || dut.u_core.u_instr.u_exec.state_q != 4'd9 || !dut.u_core.u_instr.u_exec.u_fetch.run_q
           || dut.u_core.u_instr.u_exec.u_fetch.copy_q)
-  // verilog_format: on
-  `FV_LEMMA(lemma_started_code,
-             !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q == info.starts_motion))
-  // verilog_format: off
+  `FV_LEMMA(
+      lemma_started_code,
+      !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q == info.starts_motion))
   `FV_LEMMA(
       lemma_started_op,
       !on || move_state == '0 || !info.starts_motion || (dut.u_core.u_instr.u_move.op_o.ccw == block.par[0][6]
@@ -233,8 +244,11 @@ module ppmc312_fv
           && dut.u_core.u_axis.u_motion.op_q.zero == (zero_q && !second_q)))
   // verilog_format: on
   `FV_LEMMA(lemma_launched, !on || (held ? !launched_q && !second_q : idle || launched_q))
-  `FV_LEMMA(lemma_second,
-             !on || !(pulses || last) || dir == (ccw_q ^ (zero_q && second_q)) && (zero_q || !second_q))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_second,
+      !on || !(pulses || last) || dir == (ccw_q ^ (zero_q && second_q)) && (zero_q || !second_q))
+  // verilog_format: on
   `FV_LEMMA(lemma_phase2, !on || !dut.u_core.u_axis.u_motion.phase2_next_q || (last && zero_q && !second_q))
   // verilog_format: off
   `FV_LEMMA(
@@ -245,8 +259,11 @@ module ppmc312_fv
   `FV_LEMMA(lemma_limit, !on || !((limit_q || (output_q && limit_acts)) && pulses) || launch_q)
 
   `FV_LEMMA(lemma_written_no_start, !on || !dut.u_core.u_instr.move || (info.starts_motion ? idle : !held))
-  `FV_LEMMA(lemma_written_wait,
-            !on || dut.u_core.u_instr.u_exec.state_q != 4'd6 || block.code inside {I_AUX_OUT, I_HALT})
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_written_wait,
+      !on || dut.u_core.u_instr.u_exec.state_q != 4'd6 || block.code inside {I_AUX_OUT, I_HALT})
+  // verilog_format: on
   `FV_LEMMA(lemma_written_zero, !on || !zero_q || endless_q)
   // steps_q: cycles since the last pulse or launch, at most 3. The decision of the sequencer is complete
   // then.
@@ -259,6 +276,14 @@ module ppmc312_fv
     if (!on) steps_q <= '0;
     else if (fire || launch) steps_q <= '0;
     else if (steps_q != '1) steps_q <= steps_q + 2'd1;
+  logic [6:0] delays;  // one-hot: start_delay has this number of zeros, and the pulse width has not passed
+  for (genvar n = 0; n < 6; n++) begin : g_delay
+    assign delays[n] = start_delay == 6'(6'b111111 << n) && first && !up
+        && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == Age'(ppmc_lfsr_pkg::after(
+        n, Age
+    ));
+  end
+  assign delays[6] = start_delay == '0;
   // verilog_format: off
   `FV_LEMMA(
       lemma_count_zero,
@@ -266,24 +291,17 @@ module ppmc312_fv
           && (steps_q < 2'd2 || !zero || (dut.u_core.u_axis.u_motion.u_seq.action_q.ends
           && dut.u_core.u_axis.u_motion.u_seq.action_q.count)) && (steps_q < 2'd3 || !zero
           || dut.u_core.u_axis.u_motion.u_seq.action_q2.ends)))
-  // verilog_format: on
-  `FV_LEMMA(lemma_count_gap,
-             !on || !pulses || first || dut.u_core.u_axis.u_motion.u_interval.age_q == 3'(steps_q) + 3'd1)
-  // verilog_format: off
   `FV_LEMMA(
-      lemma_count_first,
-      !on || !pulses || !first || steps_q == '1 || (!dut.u_core.u_axis.u_motion.u_interval.up
-          && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == (steps_q == 2'd0 ? Age'(1)
-          : steps_q == 2'd1 ? Age'(2) : Age'(4))))
-  // verilog_format: on
-  // verilog_format: off
+      lemma_count_gap,
+      !on || !pulses || first || dut.u_core.u_axis.u_motion.u_interval.age_q == 3'(steps_q) + 3'd1)
+  `FV_LEMMA(lemma_count_first, !on || !pulses || !first || steps_q == '1 || delays[3'(steps_q)])
   `FV_LEMMA(
       lemma_count_decel,
-      !on || !pulses || {decel_cause.als, decel_cause.nos, decel_cause.low, decel_cause.stp, decel_cause.stl} == '0)
-  // verilog_format: on
-  `FV_LEMMA(lemma_count_final, !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel || $onehot
-             (decel_cause))
-  // verilog_format: off
+      !on || !pulses
+          || {decel_cause.als, decel_cause.nos, decel_cause.low, decel_cause.stp, decel_cause.stl} == '0)
+  `FV_LEMMA(
+      lemma_count_final,
+      !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel || $onehot(decel_cause))
   `FV_LEMMA(
       lemma_count_ends,
       !on || !pulses || ((steps_q < 2'd2 || !dut.u_core.u_axis.u_motion.u_seq.action_q.ends
@@ -291,20 +309,23 @@ module ppmc312_fv
           && (steps_q < 2'd3 || !dut.u_core.u_axis.u_motion.u_seq.action_q2.ends
           || dut.u_core.u_axis.u_motion.u_seq.action_q2.low || zero
           || dut.u_core.u_axis.u_motion.final_decel)))
-  // verilog_format: on
-  `FV_LEMMA(lemma_count_cause, !on || !(last || motion_state == 3'd4)
-            || (phase2_next ? !zero : $onehot(dut.u_core.u_axis.u_motion.cause_q) && dut.u_core.u_axis.u_motion.cause_q.nos == zero))
-  `FV_LEMMA(lemma_count_next, !on || !pulses || dut.u_core.u_axis.u_motion.final_decel
-            || ((steps_q < 2'd1 || !dut.u_core.u_axis.u_motion.u_seq.next_q.final_decel || dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel)
-            && (steps_q < 2'd2 || !dut.u_core.u_axis.u_motion.u_seq.next_q2.final_decel || dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel)))
-  // verilog_format: off
+  `FV_LEMMA(
+      lemma_count_cause,
+      !on || !(last || motion_state == 3'd4) || (phase2_next ? !zero
+          : $onehot(dut.u_core.u_axis.u_motion.cause_q) && dut.u_core.u_axis.u_motion.cause_q.nos == zero))
+  `FV_LEMMA(
+      lemma_count_next,
+      !on || !pulses || dut.u_core.u_axis.u_motion.final_decel || ((steps_q < 2'd1
+          || !dut.u_core.u_axis.u_motion.u_seq.next_q.final_decel
+          || dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel) && (steps_q < 2'd2
+          || !dut.u_core.u_axis.u_motion.u_seq.next_q2.final_decel
+          || dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel)))
   `FV_LEMMA(
       lemma_count_cause_limit,
       !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.stl || limit_q
           || (output_q && limit_acts))
   // verilog_format: on
-  `FV_LEMMA(lemma_count_abnormal,
-             !on || idle || !abn || (alarm_q && !start_q) || alarm_acts || multi_q)
+  `FV_LEMMA(lemma_count_abnormal, !on || idle || !abn || (alarm_q && !start_q) || alarm_acts || multi_q)
   // verilog_format: off
   `FV_LEMMA(
       lemma_count_cause_alarm,
@@ -314,10 +335,9 @@ module ppmc312_fv
       lemma_written_move,
       !on || move_state == '0 || !info.starts_motion || !finite || (dut.u_core.u_instr.u_move.count_q == count
           && !dut.u_core.u_instr.u_move.endless_q))
-  // verilog_format: on
-  `FV_LEMMA(lemma_written_endless,
-             !on || move_state == '0 || !info.starts_motion || dut.u_core.u_instr.u_move.endless_q == !finite)
-  // verilog_format: off
+  `FV_LEMMA(
+      lemma_written_endless,
+      !on || move_state == '0 || !info.starts_motion || dut.u_core.u_instr.u_move.endless_q == !finite)
   `FV_LEMMA(
       lemma_written_held,
       !on || !held || (dut.u_core.u_instr.u_move.endless_q == endless_q && (endless_q
@@ -326,31 +346,39 @@ module ppmc312_fv
 
   // Delayed signals, the fetch of an instruction, and the beginning of a motion.
   // verilog_format: off
-  `FV_LEMMA(lemma_delays, !on || ((!launch_q || pulses) && (!start_q || held || launch_q)
-            && (launch_q || (dir_q == dir && (output_q || !(pulses || last)))) && (!fire_q || pulses || last)))
-  `FV_LEMMA(lemma_fetch_order, !on || !fetching || (at <= sent_s1 && sent_s1 <= sent && sent <= 5'd16
-            && sent_s1 <= at + 5'd1 && sent <= sent_s1 + 5'd1
-            && !(valid[1] && at == 5'd16) && !(valid[0] && sent_s1 == 5'd16)))
+  `FV_LEMMA(
+      lemma_delays,
+      !on || ((!launch_q || pulses) && (!start_q || held || launch_q) && (launch_q || (dir_q == dir
+          && (output_q || !(pulses || last)))) && (!fire_q || pulses || last)))
+  `FV_LEMMA(
+      lemma_fetch_order,
+      !on || !fetching || (at <= sent_s1 && sent_s1 <= sent && sent <= 5'd16 && sent_s1 <= at + 5'd1
+          && sent <= sent_s1 + 5'd1 && !(valid[1] && at == 5'd16) && !(valid[0] && sent_s1 == 5'd16)))
+  // verilog_format: on
   `FV_LEMMA(lemma_fetch_idle, !on || fetching || valid == '0)
-  `FV_LEMMA(lemma_info, !on || (!(checks || (reads_block && at >= 5'd5)) || dut.u_core.u_instr.u_exec.info == info)
-            && (!(checks || (reads_block && at >= 5'd4)) || dut.u_core.u_instr.u_exec.u_instr_rom.word_q.info == info))
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_info,
+      !on || (!(checks || (reads_block && at >= 5'd5)) || dut.u_core.u_instr.u_exec.info == info) && (!(checks
+          || (reads_block && at >= 5'd4)) || dut.u_core.u_instr.u_exec.u_instr_rom.word_q.info == info))
+  // verilog_format: on
   `FV_LEMMA(lemma_abnormal, !on || alarm_h[2] || abn)
   `FV_LEMMA(lemma_abnormal_held, !on || !held || !abn || start_q)
   `FV_LEMMA(lemma_abnormal_phase2, !on || !last || !phase2_next || !abn)
-  `FV_LEMMA(lemma_origin, !on || !(pulses || last) || dut.u_core.u_axis.u_motion.op_q.zero
-            || !(dut.u_core.u_axis.u_motion.org_q || decel_cause.org
-            || (by_origin[0] && !start_delay[0]) || (by_origin[1] && !start_delay[1])))
-  `FV_LEMMA(lemma_slow1, !on || !dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel
-            || dut.u_core.u_axis.u_motion.slow_q || dut.u_core.u_axis.u_motion.by_decel_q[0] || by_origin[0])
-  `FV_LEMMA(lemma_slow2, !on || !dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel
-            || dut.u_core.u_axis.u_motion.by_slow_q || dut.u_core.u_axis.u_motion.by_decel_q[1] || by_origin[1])
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_origin,
+      !on || !(pulses || last) || dut.u_core.u_axis.u_motion.op_q.zero || !(dut.u_core.u_axis.u_motion.org_q
+          || decel_cause.org || (by_origin[0] && !start_delay[0]) || (by_origin[1] && !start_delay[1])))
+  `FV_LEMMA(
+      lemma_slow1,
+      !on || !dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel || dut.u_core.u_axis.u_motion.slow_q
+          || dut.u_core.u_axis.u_motion.by_decel_q[0] || by_origin[0])
+  `FV_LEMMA(
+      lemma_slow2,
+      !on || !dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel || dut.u_core.u_axis.u_motion.by_slow_q
+          || dut.u_core.u_axis.u_motion.by_decel_q[1] || by_origin[1])
   // verilog_format: on
-  logic [6:0] delays;  // one-hot: start_delay has this number of zeros, and the pulse width has not passed
-  for (genvar n = 0; n < 6; n++) begin : g_delay
-    assign delays[n] = start_delay == 6'(6'b111111 << n) && first && !up
-        && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == Age'(ppmc_lfsr_pkg::after(n, Age));
-  end
-  assign delays[6] = start_delay == '0;
   `FV_LEMMA(lemma_delay, !on || delays != '0)
 
   `FV_COVER(seen_limit, limit_q && dir_q && output_q)
