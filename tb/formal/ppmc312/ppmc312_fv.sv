@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fv: proves a complete PPMC-312 from its host pins to its motor pins, with TIMING = "FAST", a clock
 // of 8 MHz and a crystal of 16 MHz (a pulse has 40 cycles). Each word of a RAM may have any value in every
-// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained. A run
-// begins with a reset or in any state of the lemmas, and the lemmas are proved by induction.
+// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained. A
+// run begins with a reset or in any state of the lemmas, and the lemmas are proved by induction.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none

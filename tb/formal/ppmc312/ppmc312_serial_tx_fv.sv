@@ -103,9 +103,8 @@ module ppmc312_serial_tx_fv
   `FV_LEMMA(p312_ser_18_falls, !$past(rst_dut_n && sent_o) || !snd_o)
   `FV_LEMMA(p312_ser_18_only_to_send, !(snd_o && !snd_q) || send_i)
   `FV_LEMMA(p312_ser_18_stays, !snd_q || snd_o || $past(sent_o))
-  // The gap is one bit time (3 cycles) and 2 cycles. If a character ends in the cycle of the decision or
-  // during
-  // a reply, two stations send at the same time.
+  // The gap is one bit time (3 cycles) and 2 cycles. If a character ends in the cycle of the decision, or
+  // during a reply, two stations send at the same time.
   `FV_LEMMA(p312_ser_18_gap, !(snd_o && !snd_q) || char_age_q >= 5'd4 || char_age_q == '0 || late_q)
   `FV_LEMMA(p312_ser_18_in_time, wait_q < 6'd7)
 
@@ -150,6 +149,7 @@ module ppmc312_serial_tx_fv
       late_q || char_age_q > 5'd2 || !snd_o || (!begun_q && rest_q == {char_age_q[1:0], 1'b0}))
   // verilog_format: on
   `FV_LEMMA(lemma_wait, wait_q <= (snd_o ? 6'd5 : (char_age_q <= 5'd4) ? 6'(char_age_q) : 6'd1))
+
   logic reset_q = 1'b0;  // a cover begins with a reset
   always_ff @(posedge clk_i) reset_q <= reset_q || !rst_dut_n;
   `FV_COVER(seen_end, reset_q && sent_o && reply_i.count == 3'd1)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_stage_builder_fv: proves that a build writes each word of its table once and in order, and ends.
-//         The
-// results of the arithmetic and the words of the RAM have any value; an operation lasts at most 3 cycles
-//         here.
+// The results of the arithmetic and the words of the RAM have any value; an operation lasts at most 3 cycles
+// here.
 `include "ppmc_fv.svh"
 `include "common/ppmc_lemma.svh"
 `default_nettype none
@@ -141,14 +140,15 @@ module ppmc312_stage_builder_fv
         lemma_open,
         !busy_o || !dut.pass_q || dut.state_q == 4'd4 && dut.stage_q == first[n]
             && {dut.phase_q, dut.wait_q} == '0 || dut.open_q[n] == (dut.stage_q >= first[n]))
-  // verilog_format: on
+    // verilog_format: on
     `FV_LEMMA(lemma_first, first[n] <= 7'd126)
   end
   // verilog_format: off
   `FV_LEMMA(
       lemma_done,
-      !busy_o || !dut.pass_q || (dut.state_q == 4'd13 ? done_q == {dut.open_q[1]
-          && curve_i.split, dut.open_q[0]} : !done_q[1] && done_q[0] == (dut.side_q && dut.open_q[0])))
+      !busy_o || !dut.pass_q || (dut.state_q == 4'd13
+          ? done_q == {dut.open_q[1] && curve_i.split, dut.open_q[0]}
+          : !done_q[1] && done_q[0] == (dut.side_q && dut.open_q[0])))
   `FV_LEMMA(
       lemma_pass,
       !busy_o || dut.stage_q <= 7'd126 && (dut.state_q == 4'd4 || dut.state_q == 4'd13
@@ -157,9 +157,7 @@ module ppmc312_stage_builder_fv
   `FV_LEMMA(
       lemma_side,
       !dut.side_q || !busy_o || (dut.state_q inside {[4'd8 : 4'd12]} && (!dut.pass_q || dut.open_q[1])))
-  // verilog_format: on
   // Phase 2 starts an operation, then wait_q is 1 until it ends.
-  // verilog_format: off
   `FV_LEMMA(
       lemma_phase,
       (dut.works || !(dut.wait_q || op_start_o)) && (dut.works || dut.state_q == 4'd1 || dut.phase_q == '0)

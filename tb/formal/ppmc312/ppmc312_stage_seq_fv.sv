@@ -169,6 +169,7 @@ module ppmc312_stage_seq_fv
           && !dut.action_q2.ends) || (to_stage[1] == adjacent && dut.next_q2.down == dut.mode_q.down
           && dut.more_q == '0))))
   // verilog_format: on
+
   logic reset_q = 1'b0;  // a cover begins with a reset
   always_ff @(posedge clk_i) reset_q <= reset_q || !rst_dut_n;
   `FV_COVER(seen_stage, reset_q && table_rate && here_q && n_q == 24'd2 && left_q == 32'd7)
