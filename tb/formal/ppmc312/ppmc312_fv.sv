@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // ppmc312_fv: proves a complete PPMC-312 from its host pins to its motor pins, with TIMING = "FAST", a clock
 // of 8 MHz and a crystal of 16 MHz (a pulse has 40 cycles). Each word of a RAM may have any value in every
-// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained.
+// cycle, a table build takes five cycles and a plan three, with any results. All pins are unconstrained. A
+// run begins with a reset or in any state of the lemmas, and the lemmas are proved by induction.
 `include "ppmc_fv.svh"
+`include "common/ppmc_lemma.svh"
 `default_nettype none
 
 module ppmc312_fv
@@ -24,6 +26,7 @@ module ppmc312_fv
   logic [5:0] auxo_n;
 
   `FV_RESET
+  `FV_ANY_START(pin_rst_n)
 
 `ifdef FV_COVERS
   // A cover needs two instructions, so its host has a fixed sequence: it writes a block of 11 bytes (initial
@@ -45,7 +48,7 @@ module ppmc312_fv
     if (writes && time_q < 9'd100 && first_n == 4'd1) {rs, d_i} = {3'd3, 8'h15};
     if (writes && time_q > 9'd100 && second_n == 4'd1) {rs, d_i} = {3'd3, 8'h16};
   end
-  assign {pin_rst_n, mode, rxd, hsp, mod, adr, evt0_n, evt1_n, auxi} = {3'b111, 8'd0, 2'b11, 8'd0};
+  assign {pin_rst_n, mode, rxd, hsp, mod, adr, evt0_n, evt1_n, auxi} = {rst_ni, 2'b11, 8'd0, 2'b11, 8'd0};
   assign {alm_n, end_n, epin, epdir, index_n, org_n, fhl_n, bhl_n, extck, run} = 10'b11_00_11_11_11;
   assign {fl_n, bl_n} = pins_i[1:0] | {2{time_q < 9'd200}};
 `else
@@ -58,7 +61,7 @@ module ppmc312_fv
       .XTAL_HZ(16_000_000)
   ) dut (
       .clk  (clk_i),
-      .rst_n(rst_ni && pin_rst_n),
+      .rst_n(rst_dut_n),
       .*
   );
 
@@ -126,14 +129,17 @@ module ppmc312_fv
       else if (launch) {launched_q, second_q} <= {1'b1, launched_q};
     end
 
-  `FV_ASSERT(no_pulse_at_a_cause, !(moved && (alarm_acts || limit_acts)))
-  `FV_ASSERT(no_pulse_after_a_cause, !(moved && (alarm_q || limit_q)))
-  `FV_ASSERT(no_pulse_without_event, !moved || fire_q)
-  `FV_ASSERT(no_pulse_without_a_motion, !fire || output_on)
-  `FV_ASSERT(no_start_without_a_motion_code,
-             !start || block.code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT})
-  `FV_ASSERT(no_start_while_moving, !start || (!output_on && dut.status == StatusNor))
-  `FV_ASSERT(no_pulse_with_wrong_dir, !moved || dir == (ccw_q ^ (zero_q && second_q)))
+  `FV_LEMMA(no_pulse_at_a_cause, !(moved && (alarm_acts || limit_acts)))
+  `FV_LEMMA(no_pulse_after_a_cause, !(moved && (alarm_q || limit_q)))
+  `FV_LEMMA(no_pulse_without_event, !moved || fire_q)
+  `FV_LEMMA(no_pulse_without_a_motion, !fire || output_on)
+  // verilog_format: off
+  `FV_LEMMA(
+      no_start_without_a_motion_code,
+      !start || block.code inside {I_ORIGIN, I_ZERO, I_MOVE, I_CONST, I_STEP, I_HIGH, I_CONT})
+  // verilog_format: on
+  `FV_LEMMA(no_start_while_moving, !start || (!output_on && dut.status == StatusNor))
+  `FV_LEMMA(no_pulse_with_wrong_dir, !moved || dir == (ccw_q ^ (zero_q && second_q)))
 
   // ---- number of pulses: as written by the host, or fewer with a cause ---------------------------------
 
@@ -162,17 +168,25 @@ module ppmc312_fv
 
   always_ff @(posedge clk_i) left_q <= left;
 
-  `FV_ASSERT(written_count, !on || !launch_q || (endless == endless_q && (endless || left == wanted_q)))
-  `FV_ASSERT(count_down, !on || launch_q || left == left_q - 32'(fire_q))
-  `FV_ASSERT(count_no_more, !fire || endless || left != '0)
-  `FV_ASSERT(count_or_a_cause, !on || !stop || ($onehot(cause)
-             && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
-  `FV_ASSERT(count_cause_limit, !on || !stop_q || !cause_q.stl || limit_q)
-  `FV_ASSERT(count_cause_alarm, !on || !stop_q || !cause_q.als || alarm_q || alarm_acts || multi_q)
-  `FV_ASSERT(position_counts_pulses,
-             !on || pos == (set_pos_q ? value_q : pos_q + (!fire_q2 ? 32'd0 : dir_q ? '1 : 32'd1)))
+  `FV_LEMMA(written_count, !on || !launch_q || (endless == endless_q && (endless || left == wanted_q)))
+  `FV_LEMMA(count_down, !on || launch_q || left == left_q - 32'(fire_q))
+  `FV_LEMMA(count_no_more, !fire || endless || left != '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      count_or_a_cause,
+      !on || !stop || ($onehot(cause) && (launched_q ? cause.nos == (!endless && left == '0) : cause.als)))
+  // verilog_format: on
+  `FV_LEMMA(count_cause_limit, !on || !stop_q || !cause_q.stl || limit_q)
+  `FV_LEMMA(count_cause_alarm, !on || !stop_q || !cause_q.als || alarm_q || alarm_acts || multi_q)
+  // verilog_format: off
+  `FV_LEMMA(
+      position_counts_pulses,
+      !on || pos == (set_pos_q ? value_q : pos_q + (!fire_q2 ? 32'd0 : dir_q ? '1 : 32'd1)))
+  // verilog_format: on
 
-  // Lemmas: the instruction does not change while it starts a motion; registers of the motion.
+  // ---- lemmas -------------------------------------------------------------------------------------
+
+  // The instruction does not change while it starts a motion; registers of the motion.
   logic idle, held, pulses, last;
   logic [2:0] motion_state, move_state;
   instr_info_t info;
@@ -182,61 +196,75 @@ module ppmc312_fv
   assign motion_state = dut.u_core.u_axis.u_motion.state_q;
   assign move_state = dut.u_core.u_instr.u_move.state_q;
   assign info = instr_info(block.code);
+  end_cause_t decel_cause;
+  logic abn, phase2_next, up, fetching, reads_block, checks;
+  logic [1:0] by_origin, valid;
+  logic [4:0] at, sent, sent_s1;
+  logic [5:0] start_delay;
+  assign {abn, phase2_next} = {dut.u_core.u_axis.u_motion.abn_q, dut.u_core.u_axis.u_motion.phase2_next_q};
+  assign decel_cause = dut.u_core.u_axis.u_motion.decel_cause_q;
+  assign by_origin = dut.u_core.u_axis.u_motion.by_origin_q;
+  assign start_delay = dut.u_core.u_axis.u_motion.start_delay_q;
+  assign up = dut.u_core.u_axis.u_motion.u_interval.up;
+  assign fetching = dut.u_core.u_instr.u_exec.u_fetch.run_q;
+  assign valid = dut.u_core.u_instr.u_exec.u_fetch.valid_q;
+  assign reads_block = fetching && !dut.u_core.u_instr.u_exec.u_fetch.copy_q;
+  assign checks = dut.u_core.u_instr.u_exec.state_q inside {[4'd3 : 4'd6]};
+  assign at = dut.u_core.u_instr.u_exec.u_fetch.at_q;
+  assign sent = dut.u_core.u_instr.u_exec.u_fetch.sent_q;
+  assign sent_s1 = dut.u_core.u_instr.u_exec.u_fetch.sent_s1_q;
 
   // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_levels,
-      !on
-          || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n}
-              == {alarm_h[1], cw_h[1], ccw_h[1]}))
+      !on || ({dut.inputs.filtered.alm_n, dut.inputs.filtered.fl_n, dut.inputs.filtered.bl_n}
+          == {alarm_h[1], cw_h[1], ccw_h[1]}))
   // verilog_format: on
-  `FV_ASSERT(lemma_states, !on || motion_state <= 3'd4 && move_state <= 3'd4)
-  `FV_ASSERT(lemma_move, !on || (move_state != '0) == (dut.u_core.u_instr.u_exec.state_q == 4'd10))
+  `FV_LEMMA(lemma_states, !on || motion_state <= 3'd4 && move_state <= 3'd4)
+  `FV_LEMMA(lemma_move, !on || (move_state != '0) == (dut.u_core.u_instr.u_exec.state_q == 4'd10))
   // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_fetch,
       !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q
           || dut.u_core.u_instr.u_exec.state_q inside {4'd2, 4'd9})
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_copy,
       !on || dut.u_core.u_instr.u_exec.state_q != 4'd9 || !dut.u_core.u_instr.u_exec.u_fetch.run_q
           || dut.u_core.u_instr.u_exec.u_fetch.copy_q)
-  // verilog_format: on
-  `FV_ASSERT(lemma_started_code,
-             !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q == info.starts_motion))
-  // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
+      lemma_started_code,
+      !on || move_state == '0 || (dut.u_core.u_instr.u_move.starts_motion_q == info.starts_motion))
+  `FV_LEMMA(
       lemma_started_op,
       !on || move_state == '0 || !info.starts_motion || (dut.u_core.u_instr.u_move.op_o.ccw == block.par[0][6]
           && dut.u_core.u_instr.u_move.op_o.zero == (block.code == I_ZERO)))
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_held_op,
       !on || !(held || pulses || last) || (dut.u_core.u_axis.u_motion.op_q.ccw == ccw_q
           && dut.u_core.u_axis.u_motion.op_q.zero == (zero_q && !second_q)))
   // verilog_format: on
-  `FV_ASSERT(lemma_launched, !on || (held ? !launched_q && !second_q : !(pulses || last) || launched_q))
-  `FV_ASSERT(lemma_second,
-             !on || !(pulses || last) || dir == (ccw_q ^ (zero_q && second_q)) && (zero_q || !second_q))
-  `FV_ASSERT(lemma_phase2, !on || !dut.u_core.u_axis.u_motion.phase2_next_q || (last && zero_q && !second_q))
+  `FV_LEMMA(lemma_launched, !on || (held ? !launched_q && !second_q : idle || launched_q))
   // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
+      lemma_second,
+      !on || !(pulses || last) || dir == (ccw_q ^ (zero_q && second_q)) && (zero_q || !second_q))
+  // verilog_format: on
+  `FV_LEMMA(lemma_phase2, !on || !dut.u_core.u_axis.u_motion.phase2_next_q || (last && zero_q && !second_q))
+  // verilog_format: off
+  `FV_LEMMA(
       lemma_alarm,
       !on || !alarm_q || start_q || idle || motion_state == 3'd4 || dut.u_core.u_axis.u_motion.abn_q || (last
           && !dut.u_core.u_axis.u_motion.phase2_next_q))
   // verilog_format: on
-  `FV_ASSERT(lemma_limit, !on || !(limit_q && pulses) || launch_q)
+  `FV_LEMMA(lemma_limit, !on || !((limit_q || (output_q && limit_acts)) && pulses) || launch_q)
 
+  `FV_LEMMA(lemma_written_no_start, !on || !dut.u_core.u_instr.move || (info.starts_motion ? idle : !held))
   // verilog_format: off
-  `FV_ASSERT(
-      lemma_written_info,
-      !on || dut.u_core.u_instr.u_exec.state_q inside {4'd0, 4'd1, 4'd2}
-          || dut.u_core.u_instr.u_exec.info == info)
-  `FV_ASSERT(
-      lemma_written_info_in_time,
-      !on || !dut.u_core.u_instr.u_exec.u_fetch.run_q || dut.u_core.u_instr.u_exec.u_fetch.copy_q
-          || dut.u_core.u_instr.u_exec.u_fetch.at_q < 5'd6 || dut.u_core.u_instr.u_exec.info == info)
+  `FV_LEMMA(
+      lemma_written_wait,
+      !on || dut.u_core.u_instr.u_exec.state_q != 4'd6 || block.code inside {I_AUX_OUT, I_HALT})
   // verilog_format: on
-  `FV_ASSERT(lemma_written_no_start, !on || !dut.u_core.u_instr.move || !info.starts_motion || idle)
+  `FV_LEMMA(lemma_written_zero, !on || !zero_q || endless_q)
   // steps_q: cycles since the last pulse or launch, at most 3. The decision of the sequencer is complete
   // then.
   localparam int unsigned Age = ppmc_lfsr_pkg::width(40 - 1);
@@ -248,63 +276,110 @@ module ppmc312_fv
     if (!on) steps_q <= '0;
     else if (fire || launch) steps_q <= '0;
     else if (steps_q != '1) steps_q <= steps_q + 2'd1;
+  logic [6:0] delays;  // one-hot: start_delay has this number of zeros, and the pulse width has not passed
+  for (genvar n = 0; n < 6; n++) begin : g_delay
+    assign delays[n] = start_delay == 6'(6'b111111 << n) && first && !up
+        && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == Age'(ppmc_lfsr_pkg::after(
+        n, Age
+    ));
+  end
+  assign delays[6] = start_delay == '0;
   // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_count_zero,
       !on || !pulses || ((steps_q < 2'd1 || dut.u_core.u_axis.u_motion.u_seq.zero_q == zero)
           && (steps_q < 2'd2 || !zero || (dut.u_core.u_axis.u_motion.u_seq.action_q.ends
           && dut.u_core.u_axis.u_motion.u_seq.action_q.count)) && (steps_q < 2'd3 || !zero
           || dut.u_core.u_axis.u_motion.u_seq.action_q2.ends)))
-  // verilog_format: on
-  `FV_ASSERT(lemma_count_gap,
-             !on || !pulses || first || dut.u_core.u_axis.u_motion.u_interval.age_q == 3'(steps_q) + 3'd1)
-  // verilog_format: off
-  `FV_ASSERT(
-      lemma_count_first,
-      !on || !pulses || !first || steps_q == '1 || (!dut.u_core.u_axis.u_motion.u_interval.up
-          && dut.u_core.u_axis.u_motion.u_interval.u_shaper.age_q == (steps_q == 2'd0 ? Age'(1)
-          : steps_q == 2'd1 ? Age'(2) : Age'(4))))
-  // verilog_format: on
-  `FV_ASSERT(lemma_count_final, !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel || $onehot
-             (dut.u_core.u_axis.u_motion.decel_cause_q))
-  // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
+      lemma_count_gap,
+      !on || !pulses || first || dut.u_core.u_axis.u_motion.u_interval.age_q == 3'(steps_q) + 3'd1)
+  `FV_LEMMA(lemma_count_first, !on || !pulses || !first || steps_q == '1 || delays[3'(steps_q)])
+  `FV_LEMMA(
+      lemma_count_decel,
+      !on || !pulses
+          || {decel_cause.als, decel_cause.nos, decel_cause.low, decel_cause.stp, decel_cause.stl} == '0)
+  `FV_LEMMA(
+      lemma_count_final,
+      !on || !pulses || !dut.u_core.u_axis.u_motion.final_decel || $onehot(decel_cause))
+  `FV_LEMMA(
       lemma_count_ends,
       !on || !pulses || ((steps_q < 2'd2 || !dut.u_core.u_axis.u_motion.u_seq.action_q.ends
           || dut.u_core.u_axis.u_motion.u_seq.action_q.low || zero || dut.u_core.u_axis.u_motion.final_decel)
           && (steps_q < 2'd3 || !dut.u_core.u_axis.u_motion.u_seq.action_q2.ends
           || dut.u_core.u_axis.u_motion.u_seq.action_q2.low || zero
           || dut.u_core.u_axis.u_motion.final_decel)))
-  // verilog_format: on
-  `FV_ASSERT(lemma_count_cause,
-             !on || !(last || motion_state == 3'd4) || dut.u_core.u_axis.u_motion.phase2_next_q || ($onehot
-             (dut.u_core.u_axis.u_motion.cause_q) && dut.u_core.u_axis.u_motion.cause_q.nos == zero))
-  // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
+      lemma_count_cause,
+      !on || !(last || motion_state == 3'd4) || (phase2_next ? !zero
+          : $onehot(dut.u_core.u_axis.u_motion.cause_q) && dut.u_core.u_axis.u_motion.cause_q.nos == zero))
+  `FV_LEMMA(
+      lemma_count_next,
+      !on || !pulses || dut.u_core.u_axis.u_motion.final_decel || ((steps_q < 2'd1
+          || !dut.u_core.u_axis.u_motion.u_seq.next_q.final_decel
+          || dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel) && (steps_q < 2'd2
+          || !dut.u_core.u_axis.u_motion.u_seq.next_q2.final_decel
+          || dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel)))
+  `FV_LEMMA(
       lemma_count_cause_limit,
       !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.stl || limit_q
           || (output_q && limit_acts))
   // verilog_format: on
-  `FV_ASSERT(lemma_count_abnormal,
-             !on || idle || !dut.u_core.u_axis.u_motion.abn_q || alarm_q || alarm_acts || multi_q)
+  `FV_LEMMA(lemma_count_abnormal, !on || idle || !abn || (alarm_q && !start_q) || alarm_acts || multi_q)
   // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_count_cause_alarm,
       !on || !(last || motion_state == 3'd4) || !dut.u_core.u_axis.u_motion.cause_q.als || alarm_q
           || alarm_acts || multi_q)
-  `FV_ASSERT(
+  `FV_LEMMA(
       lemma_written_move,
       !on || move_state == '0 || !info.starts_motion || !finite || (dut.u_core.u_instr.u_move.count_q == count
           && !dut.u_core.u_instr.u_move.endless_q))
-  // verilog_format: on
-  `FV_ASSERT(lemma_written_endless,
-             !on || move_state == '0 || !info.starts_motion || dut.u_core.u_instr.u_move.endless_q == !finite)
-  // verilog_format: off
-  `FV_ASSERT(
+  `FV_LEMMA(
+      lemma_written_endless,
+      !on || move_state == '0 || !info.starts_motion || dut.u_core.u_instr.u_move.endless_q == !finite)
+  `FV_LEMMA(
       lemma_written_held,
       !on || !held || (dut.u_core.u_instr.u_move.endless_q == endless_q && (endless_q
           || dut.u_core.u_instr.u_move.count_q == wanted_q)))
   // verilog_format: on
+
+  // Delayed signals, the fetch of an instruction, and the beginning of a motion.
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_delays,
+      !on || ((!launch_q || pulses) && (!start_q || held || launch_q) && (launch_q || (dir_q == dir
+          && (output_q || !(pulses || last)))) && (!fire_q || pulses || last)))
+  `FV_LEMMA(
+      lemma_fetch_order,
+      !on || !fetching || (at <= sent_s1 && sent_s1 <= sent && sent <= 5'd16 && sent_s1 <= at + 5'd1
+          && sent <= sent_s1 + 5'd1 && !(valid[1] && at == 5'd16) && !(valid[0] && sent_s1 == 5'd16)))
+  // verilog_format: on
+  `FV_LEMMA(lemma_fetch_idle, !on || fetching || valid == '0)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_info,
+      !on || (!(checks || (reads_block && at >= 5'd5)) || dut.u_core.u_instr.u_exec.info == info) && (!(checks
+          || (reads_block && at >= 5'd4)) || dut.u_core.u_instr.u_exec.u_instr_rom.word_q.info == info))
+  // verilog_format: on
+  `FV_LEMMA(lemma_abnormal, !on || alarm_h[2] || abn)
+  `FV_LEMMA(lemma_abnormal_held, !on || !held || !abn || start_q)
+  `FV_LEMMA(lemma_abnormal_phase2, !on || !last || !phase2_next || !abn)
+  // verilog_format: off
+  `FV_LEMMA(
+      lemma_origin,
+      !on || !(pulses || last) || dut.u_core.u_axis.u_motion.op_q.zero || !(dut.u_core.u_axis.u_motion.org_q
+          || decel_cause.org || (by_origin[0] && !start_delay[0]) || (by_origin[1] && !start_delay[1])))
+  `FV_LEMMA(
+      lemma_slow1,
+      !on || !dut.u_core.u_axis.u_motion.u_seq.action_q.final_decel || dut.u_core.u_axis.u_motion.slow_q
+          || dut.u_core.u_axis.u_motion.by_decel_q[0] || by_origin[0])
+  `FV_LEMMA(
+      lemma_slow2,
+      !on || !dut.u_core.u_axis.u_motion.u_seq.action_q2.final_decel || dut.u_core.u_axis.u_motion.by_slow_q
+          || dut.u_core.u_axis.u_motion.by_decel_q[1] || by_origin[1])
+  // verilog_format: on
+  `FV_LEMMA(lemma_delay, !on || delays != '0)
 
   `FV_COVER(seen_limit, limit_q && dir_q && output_q)
   `FV_COVER(seen_end, stop && cause.nos)
