@@ -27,7 +27,7 @@ module ppmc312_window_monitor (
   logic repeat_q, outside_q, reported_q, loaded_q, disabled_pending_q, restarted_q;
 
   assign outside_o = enabled_o && outside_q;
-  assign value_o = !reported_q;
+  assign value_o   = !reported_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -46,7 +46,7 @@ module ppmc312_window_monitor (
       if (read_i) reported_q <= value_o;
       if (set_i) begin
         enabled_o <= enable_i;
-        repeat_q <= repeat_i;
+        repeat_q  <= repeat_i;
         outside_q <= 1'b0;
         // A report that is loaded keeps its value until it has been read.
         if (!(loaded_q || load_i) || read_i) reported_q <= 1'b0;

@@ -34,7 +34,7 @@ module pmc006_calc
 );
 
   logic [36:0] any;  // not driven; the registers ensure that all blocks read the same value
-  logic [ 2:0] phase_q;
+  logic [2:0] phase_q;
 
   logic ends_q;
   logic [9:0] left_q;  // cycles that are left
