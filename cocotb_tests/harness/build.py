@@ -87,6 +87,11 @@ ICARUS = "icarus"
 """Value of SIM_MAIN that selects another simulator instead of a main program for Verilator."""
 
 
+def main_files(main: str) -> tuple[Path, ...]:
+    """Return the C++ files of a main program, which is a name in MAINS or the path of a file."""
+    return MAINS.get(main) or (() if main == ICARUS else (Path(main),))
+
+
 def sim_main() -> str:
     """Return the main program that SIM_MAIN selects; raise ValueError if SIM_MAIN has another value."""
     name = os.environ.get("SIM_MAIN") or "own"
@@ -110,7 +115,7 @@ def verilate(
     words = ["--cc", "--exe", "--vpi", "--prefix", "Vtop", "--top-module", top, "-o", top, "--Mdir", "."]
     words += ["-LDFLAGS", f"-Wl,-rpath,'$$ORIGIN/{libs}' -L{libs} -lcocotbvpi_verilator -rdynamic"]
     words += ["--timescale", "1ps/1ps", *(["--trace"] if waves else []), *args]
-    words += map(str, (*MAINS[main], *sources))
+    words += map(str, (*main_files(main), *sources))
     jobs = str(min(4, os.cpu_count() or 1))
     with open(log, "w", encoding="utf-8") as out:
         for command in (verilator_command(words, folder), ["make", "-j", jobs, "-f", "Vtop.mk"]):
@@ -144,7 +149,7 @@ class Design:
         probes: paths of inner signals that are visible in addition to the ports. Other signals with the same
             name are visible, too.
         libraries: archives to link, each with the digest of its content in its path.
-        main: the main program (see `verilate`).
+        main: the main program (see `main_files`).
     """
 
     top: str
@@ -226,7 +231,7 @@ def _digest(design: Design, waves: bool) -> str:
     what = (design.top, sorted(design.params.items()), _build_args(design, waves), tuple(design.ports))
     if design.probes:
         what = (*what, tuple(design.probes))  # type: ignore[assignment]
-    for path in MAINS.get(design.main, ()):
+    for path in main_files(design.main):
         sha.update(path.read_bytes())
     if design.libraries:
         what = (*what, tuple(map(str, design.libraries)))  # type: ignore[assignment]

@@ -33,7 +33,6 @@ from scripts.measure.coverage.work import pytest
 from scripts.measure.mutants.made.schema import EVERY
 from scripts.measure.mutants.made.work import copy_of
 
-build.MAINS["replay"] = (Path(__file__).with_suffix(".cpp"),)
 LONGEST, BUDGET = 20_000, 500_000
 """Maximum number of cycles of a recording, and of all recordings that are replayed into one mutant."""
 FEWEST = 20
@@ -104,7 +103,7 @@ def _killed(
         values,
         (*MUTANT_WARNINGS, "-Wno-SIDEEFFECT", "--no-assert"),
         ("clk", "rst_n", *pins.inputs, *pins.watched),
-        main="replay",
+        main=str(Path(__file__).with_suffix(".cpp")),
     )
     program = build.build(design) / row.top
     packed = folder() / f"{hashlib.sha256(f'{part} {params}'.encode()).hexdigest()[:12]}.bin"
