@@ -33,8 +33,8 @@ from scripts.measure.coverage.work import pytest
 from scripts.measure.mutants.made.schema import EVERY
 from scripts.measure.mutants.made.work import copy_of
 
-LONGEST, BUDGET = 20_000, 500_000
-"""Maximum number of cycles of a recording, and of all recordings that are replayed into one mutant."""
+TOTAL, BUDGET = 5_000_000, 500_000
+"""Maximum numbers of cycles: of all recordings of a design, and of those replayed into one mutant."""
 FEWEST = 20
 """Minimum number of recordings of a design, because the design is built for each file."""
 _WORD = 64
@@ -70,14 +70,22 @@ def record(workers: int) -> None:
 
 @cache
 def designs() -> dict[tuple[str, str], list[Path]]:
-    """Return the recordings of each design (part and parameters), the design with most recordings first."""
-    found: dict[tuple[str, str], list[Path]] = {}
-    for path in sorted(folder().glob("*.json")):
+    """Return the shortest recordings of each design (part and parameters), the shortest first.
+
+    The design with most recordings is first.
+    """
+    found: dict[tuple[str, str], list[tuple[int, Path]]] = {}
+    for path in folder().glob("*.json"):
         recording = json.loads(path.read_text(encoding="ascii"))
-        if recording["end"] <= LONGEST:
-            found.setdefault((recording["part"], json.dumps(recording["params"])), []).append(path)
-    enough = [one for one in found.items() if len(one[1]) >= FEWEST]
-    return dict(sorted(enough, key=lambda one: -len(one[1])))
+        design = recording["part"], json.dumps(recording["params"])
+        found.setdefault(design, []).append((recording["end"], path))
+    kept = {}
+    for design, recordings in found.items():
+        sums = accumulate(end for end, _ in sorted(recordings))
+        short = [path for (_, path), total in zip(sorted(recordings), sums, strict=True) if total <= TOTAL]
+        if len(short) >= FEWEST:
+            kept[design] = short
+    return dict(sorted(kept.items(), key=lambda one: -len(one[1])))
 
 
 def replayed(work: Work) -> Result:
@@ -121,7 +129,7 @@ def _killed(
 
 
 def _packed(pins: Part, params: Mapping[str, object], recordings: Sequence[Path]) -> bytes:
-    """Return ports and recordings, the shortest first, in the format of replay.cpp."""
+    """Return ports and recordings in the format of replay.cpp."""
     words = {name: -(-pins.width(name) // _WORD) for name in ("clk", "rst_n", *pins.inputs, *pins.watched)}
     first = dict(zip(words, accumulate(words.values(), initial=0), strict=False))
     start = {"clk": 0, "rst_n": 1, **pins.inputs, **pins.reset_levels(params)}
@@ -143,7 +151,7 @@ def _packed(pins: Part, params: Mapping[str, object], recordings: Sequence[Path]
     parts += [_numbers(count, len(name)) + name.encode() for name, count in words.items()]
     levels = _numbers(*chain.from_iterable(split(name, start[name]) for name in words))
     texts = [path.read_text(encoding="ascii") for path in recordings]
-    for place, one in sorted(enumerate(map(Recording.from_json, texts)), key=lambda pair: pair[1].end):
+    for place, one in enumerate(map(Recording.from_json, texts)):
         parts.append(_numbers(place, one.end) + levels + rows(one.stimulus) + rows(one.edges))
     return b"".join(parts)
 
