@@ -78,7 +78,7 @@ test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edaliz
 test WITH=versions | sim | Test with the lowest and newest dependencies; T=quick: a sample.
     {py} -m scripts.measure.versions [-k {T/or}]
 test-board | sim | Test the host package on the virtual board.
-    {pytest} tests/*/board -n {J:4} [-k {T/or}]
+    {pytest} tests/*/board -n {J:2} [-k {T/or}]
 test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
     [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates {on} [-k {T}] [--seed {SEED}]
 test-verilog | dev campaign | Run the part tests on plain Verilog; T=quick: a sample.

@@ -94,7 +94,7 @@ def test_does_not_sleep_while_a_script_waits(board: SimBoard, line: Line) -> Non
     begin = board.status().seconds
     line.port.write(encode(bytes([0]) + bytes(Script().timeout(4000).wait(1, 0xFF, 0x55))))
     answer = line.frame(4 * PATIENCE)
-    assert answer[:2] == bytes([0, Result.TIMED_OUT])
+    assert answer[:2] == bytes([0, Result.TIMED_OUT]), answer.hex(" ")
     assert 4.0 <= board.status().seconds - begin < 5.0
 
 
