@@ -177,7 +177,7 @@ async def p312_return_as_the_report_is_loaded(dut: Any) -> None:
 
 @directed("P312-MON-05", "P312-RSP-22")
 async def p312_a_short_departure_is_reported_as_one(dut: Any) -> None:
-    """With RES = 0, pulse 3 leaves the window, and an encoder edge at each cycle around it back into it."""
+    """With RES = 0, pulse 3 leaves the window; at each cycle around it, an encoder edge returns into it."""
     counts = set()
     for delay in range(-4, 12):
         host = await Host.start(dut, *TF, message(Code.ENCODE, "01 0002"))

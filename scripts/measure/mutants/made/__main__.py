@@ -84,7 +84,7 @@ def main() -> int:
         raise ProjectError("--count must be 1 or more")
     files = rtl_files(args.k)
     chosen = list(sample(files, args.count))
-    if args.count is None and not (args.so_far or args.quick):
+    if args.count is None and not (args.so_far or args.quick or args.fresh):
         replay_all(chosen, workers_of(args))
     suites = None if args.so_far else Suites()
     stamp, killed = tree(SIMULATED), {} if args.fresh else known()

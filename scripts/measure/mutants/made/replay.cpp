@@ -31,15 +31,11 @@ struct Recording {
     Word number, end;
     std::vector<Word> levels;  // of all words of all ports at the start
     std::vector<Row> inputs, outputs;
-    std::set<int> noted;       // mutants that have another value than the RTL
-};
-struct Port {
-    std::string name;
-    Word first, words;  // its words among the words of all ports
+    std::set<int> noted;  // mutants that have another value than the RTL
 };
 
-std::vector<Port> ports;  // clk, rst_n, the other inputs, the outputs
-Word inputs = 0;          // number of words of the inputs
+std::vector<std::string> ports;  // clk, rst_n, the other inputs, the outputs
+Word inputs = 0;                 // number of words of the inputs
 std::list<Recording> recordings;
 std::set<int> noted;
 
@@ -72,7 +68,7 @@ void read(const char* path) {
     inputs = reader.word();
     for (Word left = reader.word(); left > 0; --left) {
         const Word count = reader.word();
-        ports.push_back({reader.text(reader.word()), words, count});
+        ports.push_back(reader.text(reader.word()));
         words += count;
     }
     while (reader.more()) {
@@ -99,8 +95,8 @@ bool differs(const Recording& recording, const std::string& mutant) {
         std::size_t bytes;
     };
     std::vector<Place> places;
-    for (const Port& port : ports) {
-        const VerilatedVar* const var = context.scopeFind("TOP")->varFind(port.name.c_str());
+    for (const std::string& port : ports) {
+        const VerilatedVar* const var = context.scopeFind("TOP")->varFind(port.c_str());
         for (std::size_t at = 0; at < var->entSize(); at += 8)
             places.push_back({static_cast<char*>(var->datap()) + at, std::min<std::size_t>(8, var->entSize() - at)});
     }
