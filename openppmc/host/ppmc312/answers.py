@@ -77,6 +77,11 @@ class Status:
         return self.state in (State.ACC, State.FIX, State.WRN)
 
     @property
+    def waiting(self) -> int:
+        """Number of overrides and event buffers that wait for a position or an event."""
+        return self.overrides + len(self.events)
+
+    @property
     def in_alarm(self) -> bool:
         """True if the part is in the state ABN."""
         return self.state is State.ABN

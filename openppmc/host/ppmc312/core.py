@@ -9,14 +9,15 @@ from pathlib import Path
 from typing import Generic, Protocol, TypeVar
 
 from ...lazy import Renamed
-from ...model.ppmc312.codes import Code, State
+from ...model.ppmc312.codes import Code, Source, State
 from .. import speeds
 from ..capabilities import SetupRequest
 from ..check import Checked
 from ..errors import OutOfRange, ProtocolError
 from ..motion_result import MotionResult, position_lost
 from . import blocks
-from .answers import BadResponse, Executed, Inputs, Report, Response, Status, Stopped, signed
+from .answers import Alarm, BadResponse, Executed, Failed, Inputs, Report, Response, Status, Stopped, signed
+from .errors import MISSED
 from .motion import Motion, Transport
 from .profile import CAPABILITIES, Setup, TableCapabilities, plan_stages, read_stages
 from .window import ANSWER_MS, SHORTEST
@@ -81,6 +82,8 @@ class Core(Checked, Generic[MotionT]):
         self.reports = deque(maxlen=MOST_KEPT)
         self._motion: MotionT | None = None
         self._mark = 0
+        self._waiting: int | None = None  # overrides and event buffers that wait, `None` if unknown
+        self._alarm_status = 0
         self._known_position = 0
         self.window = self._make_window()
         self.window.open()
@@ -99,8 +102,13 @@ class Core(Checked, Generic[MotionT]):
         return self._motion
 
     def _annotate(self, end: MotionResult) -> MotionResult:
-        """Return the result `end` with the message prefix and the alarm name of this part."""
-        return replace(end, message_prefix=self._message_prefix, alarm=self.kind.alarm)
+        """Return the result `end` with the message prefix and the name of the last alarm of this part."""
+        alarm = MISSED.get(self._alarm_status, self.kind.alarm)
+        return replace(end, message_prefix=self._message_prefix, alarm=alarm)
+
+    def _polls(self) -> bool:
+        """Return True if reading the part during a motion cannot cause an alarm."""
+        return True
 
     # ------------------------------------------------------------------ instructions
 
@@ -148,6 +156,10 @@ class Core(Checked, Generic[MotionT]):
         else:
             if isinstance(report, Executed) and report.code == Code.SLOW_STOP and motion is not None:
                 motion.stop_ordered = True
+            if isinstance(report, (Executed, Failed)) and report.by is Source.OVERRIDE and self._waiting:
+                self._waiting -= 1
+            if isinstance(report, Alarm):
+                self._alarm_status = report.status
             self.reports.append(report)
 
     def next_report(self, timeout: float = 0) -> Report | None:
@@ -280,7 +292,7 @@ class Core(Checked, Generic[MotionT]):
     def _on_reset(self) -> None:
         """Discard set-up, motion and reports, because the part was reset."""
         self.setup = self._motion = None
-        self._known_position = 0
+        self._known_position = self._waiting = 0
         self.reports.clear()
         self.window.open()
 

@@ -122,6 +122,12 @@ _ALARMS = {
     "the alarm",
     3: "a stop report was unread at the next one: read the part's reports more often, clear the alarm",
 }
+MISSED = {
+    1: ("an unread answer", "an instruction, override or event was not executed; clear the part's alarm"),
+    2: ("an unread report", "clear the part's alarm"),
+    3: ("an unread report", "clear the part's alarm"),
+}
+"""Name and advice of the alarms that the alarm input did not cause, by the status in the report."""
 _FAILURES = {
     0: "a parameter was rejected",
     1: "the state did not allow it",

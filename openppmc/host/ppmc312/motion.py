@@ -57,6 +57,7 @@ class MotionAxis(Protocol):
 
     _known_position: int
 
+    def _polls(self) -> bool: ...
     def _position(self, encoder: bool) -> int: ...
     def status(self) -> Status: ...
     def _annotate(self, end: MotionResult) -> MotionResult: ...
@@ -141,6 +142,9 @@ class Motion(Handle):
         """Poll the part; set `result` or `result_error` if the motion is over."""
         if self.over:
             return
+        if not self._part._polls():
+            self._part.window.collect()
+            return
         busy = self._part.status().busy
         if not busy and not self.over:
             self._part.window.collect()
@@ -149,6 +153,9 @@ class Motion(Handle):
 
     def poll(self) -> Progress | None:
         """Return the current progress; `None` if the motor has stopped (then `result` is set).
+
+        On a bus, the part misses an override or event that is triggered during this call, and stops with an
+        alarm. `wait` has no such risk.
 
         Raises:
             EndUnknown: the motor has stopped, but the part does not confirm how the motion ended.
@@ -167,8 +174,8 @@ class Motion(Handle):
 
         Args:
             timeout: longest wait in s, `None` for no limit.
-            progress: called about ten times a second. An exception that it raises ends the wait; the motion
-                continues.
+            progress: called about ten times a second, but on a bus not while overrides or event buffers
+                wait. An exception that it raises ends the wait; the motion continues.
 
         Raises:
             Timeout: the time limit is exceeded; the motion continues.
@@ -180,7 +187,7 @@ class Motion(Handle):
             remaining = pause if limit is None else min(pause, limit - self._link.clock())
             if self._link.wait_event(max(0.0, remaining)) is not None:
                 self._part.window.collect()
-            elif progress is None:
+            elif progress is None or not self._part._polls():
                 self._update()
             elif (now := self.poll()) is not None:
                 progress(now)

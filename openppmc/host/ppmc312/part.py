@@ -36,8 +36,10 @@ class Overrides(Settings[MotionT]):
     An override waits for a position (`at`) or for event input 1 or 2 (`event`). Up to eight overrides can be
     registered; they are executed in the order of their registration. Overrides remain registered after the
     end of a motion, until the next table is loaded. A report contains the result of an override (`Executed`,
-    `Failed`). Read this report before the next override is executed; otherwise the part enters the alarm
-    state. All methods may raise RegistrationRefused.
+    `Failed`). On a bus, read this report before the next override is executed; otherwise the part enters the
+    alarm state. It also enters the alarm state if an override or event is triggered between an instruction of
+    the host and the read of its answer. Therefore, `Motion.wait` only reads reports while one waits.
+    All methods may raise RegistrationRefused.
     """
 
     # ------------------------------------------------------------------ overrides
@@ -82,6 +84,8 @@ class Overrides(Settings[MotionT]):
         response = self.window.execute(block)
         if response.code != Answer.REGISTERED:
             raise ProtocolError(f"{self.link.name}: nothing was registered: {response.raw.hex(' ')}")
+        if self._waiting is not None:
+            self._waiting += 1
 
     def move_block(
         self, pulses: int, pps: speeds.Number | None = None, trigger: Trigger = Trigger.NOW
@@ -112,6 +116,7 @@ class Overrides(Settings[MotionT]):
 
         During this call, the motor must be stopped.
         """
+        self._waiting = None
         status = self.instruct(blocks.event_register(event, block), 4)[0]
         if status == IN_USE:
             raise RegistrationRefused(status, f"event {event} is in use by an override")
@@ -398,6 +403,14 @@ class Ppmc312(Axis[Motion], Part):
 
     def _make_window(self) -> Window:
         return Window(self.link, self._on_response)
+
+    def _start(self, block: bytes, direction: int, requested: int | None = None) -> Motion:
+        if self._waiting != 0:
+            self._waiting = self.status().waiting
+        return super()._start(block, direction, requested)
+
+    def _polls(self) -> bool:
+        return self._waiting == 0 or self.window.was_reset()
 
     @property
     def axes(self) -> tuple[Ppmc312, ...]:

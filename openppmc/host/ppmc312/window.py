@@ -167,6 +167,10 @@ class Window:
                 return
         raise ProtocolError(f"{self._link.name}: reports without end: reset the part")
 
+    def was_reset(self) -> bool:
+        """Return True if the part may have been reset since `open`. The part executes no instruction."""
+        return self._state_unknown or not self._link.execute(Script().read(CSR)).values[0][0] & ERIRQ
+
     # ------------------------------------------------------------------ internal
 
     @staticmethod

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import pairwise
@@ -14,6 +15,7 @@ from openppmc.host import (
     AlarmStop,
     AxisBusy,
     Cause,
+    EndUnknown,
     LimitReached,
     Link,
     NothingToStop,
@@ -42,8 +44,10 @@ from openppmc.host.ppmc312.answers import (
     InPositionChange,
     InputChange,
     InterlockEnded,
+    Response,
     Stopped,
 )
+from openppmc.host.ppmc312.blocks import WINDOW
 from openppmc.host.ppmc312.errors import (
     CurveRefused,
     EventFailed,
@@ -57,6 +61,7 @@ from openppmc.host.ppmc312.errors import (
     TableRefused,
     UnexpectedInstruction,
 )
+from openppmc.host.ppmc312.window import CONTROL
 from openppmc.host.script import Script
 from openppmc.model.ppmc312.carrier import Carrier
 from openppmc.model.ppmc312.codes import Cause as Bit
@@ -460,6 +465,56 @@ def test_overrides_too_close_together(part: Ppmc312) -> None:
     assert Executed(Source.OVERRIDE, Code.RAMP_CHANGE) in reports
     part.clear_alarm()
     assert part.status().state is State.NOR
+
+
+@pytest.mark.parametrize("seen", [None, lambda progress: None], ids=["silent", "progress"])
+def test_no_instruction_while_an_override_waits(
+    part: Ppmc312, seen: Callable[[object], None] | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An override that is triggered while an answer is unread is an alarm, so a wait sends no instruction
+    (P312-RSP-20).
+    """
+    sent: list[int] = []
+    real = part.window.execute
+
+    def execute(block: bytes, *words: int) -> Response:
+        sent.append(block[2])
+        return real(block, *words)
+
+    part.override_speed(5000, at=9000)
+    motion = part.start_move(20_000)
+    monkeypatch.setattr(part.window, "execute", execute)
+    with pytest.raises(Timeout):
+        motion.wait(0.7, seen)
+    assert part.reports == deque() and not sent
+    assert motion.wait(progress=seen).complete
+    assert part.reports == deque([Executed(Source.OVERRIDE, Code.RAMP_CHANGE)]) and Code.STATUS in sent
+
+
+@pytest.mark.parametrize("begin", ["override", "event", "another program"])
+def test_a_reset_ends_the_wait_for_an_override(part: Ppmc312, begin: str) -> None:
+    if begin == "event":
+        part.event_add(1, blocks.block(Code.SLOW_STOP))
+    else:
+        part.override_stop(at=10_000)
+    motion = part.start_move(20_000)
+    if begin == "another program":
+        part._waiting = None
+    part.link.execute(Script().reset())
+    with pytest.raises(EndUnknown, match="reported no end"):
+        motion.wait(5)
+
+
+def test_an_alarm_by_an_unread_answer_is_named(part: Ppmc312) -> None:
+    """Only an alarm at the pin is described as one."""
+    part.override_speed(5000, at=200)
+    motion = part.start_move(900)
+    block = blocks.block(Code.VERSION)
+    part.link.execute(part.window._append_block(Script().write(CONTROL, WINDOW), block))
+    part.link.pause(0.1)
+    with pytest.raises(AlarmStop, match="an unread answer ended the motion at position 200 after") as error:
+        motion.wait().check(900)
+    assert "input" not in str(error.value) and "drive" not in str(error.value)
 
 
 def test_overrides_by_event(part: Ppmc312) -> None:
