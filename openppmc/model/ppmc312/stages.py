@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal, localcontext
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import accumulate
 from math import floor
 from typing import NamedTuple
@@ -175,6 +175,7 @@ def first_stage(rates: Sequence[int], ordered: int) -> int:
     return max(i for i in range(STAGES) if rates[i] >= ordered)
 
 
+@lru_cache(maxsize=8)
 def build(
     start: int,
     stop: int,
