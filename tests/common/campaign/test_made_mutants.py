@@ -9,7 +9,9 @@ import pytest
 
 from cocotb_tests.harness.project import ROOT, ProjectError
 from openppmc.check.records import Edge, Recording
-from scripts.measure.mutants.made import page, replay, work
+from scripts.measure.campaign.jobs import Done
+from scripts.measure.campaign.store import Store
+from scripts.measure.mutants.made import killed, page, replay, work
 from scripts.measure.mutants.made.chosen import of_file, rtl_files, sample
 from scripts.measure.mutants.made.faults import alone, faults
 from scripts.measure.mutants.made.page import Tried, score
@@ -97,6 +99,35 @@ def test_recordings_kill_mutants(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     replay.designs.cache_clear()
     assert set(done.data["killed"].values()) == {"right"}
     assert 0 < len(done.data["killed"]) < len(of_file(file)) // 2
+
+
+def test_another_machine_continues(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A machine without results reads the killed mutants from docs/killed.json, but only those of unchanged
+    files.
+    """
+    monkeypatch.setattr(killed, "PAGE", tmp_path / "killed.json")
+    monkeypatch.setattr(killed, "Store", lambda: Store(tmp_path / "results.sqlite"))
+    killed.load()
+    files = ("rtl/motion/ppmc_pulse_shaper.sv", "rtl/common/ppmc_sync.sv", "rtl/common/ppmc_timer.sv")
+    with Store(tmp_path / "results.sqlite") as store:
+        for file, number, verdict, test in (
+            (files[0], 1, KILLED, "a test"),
+            (files[0], 2, KILLED, f"{PROOF}p"),
+            (files[0], 3, ALIVE, ""),
+            (files[0], 4, KILLED, "a test"),
+            (files[1], 1, KILLED, "a test"),
+            (files[2], 1, ALIVE, ""),
+        ):
+            data = {"verdict": verdict, "test": test, "file": work.digest(file)}
+            store.note(killed.NAME, "now", Done(f"{file} {number}", True, data, 1.0))
+    killed.save()
+    text = killed.PAGE.read_text(encoding="ascii")
+    killed.PAGE.write_text(text.replace(work.digest(files[1]), "of another file"), encoding="ascii")
+    (tmp_path / "results.sqlite").unlink()
+    killed.load()
+    with Store(tmp_path / "results.sqlite") as store:
+        found = {key: done.data["test"].startswith(PROOF) for key, (_, done) in killed.known(store).items()}
+    assert found == {f"{files[0]} 1": False, f"{files[0]} 2": True, f"{files[0]} 4": False}
 
 
 def test_one_alone() -> None:

@@ -2,8 +2,8 @@
 
 A run of all mutants first replays recorded tests into them (`replay`). It writes docs/mutants.md if all
 folders are included, else build/mutants.md. A killed mutant is not tried again while the source file that it
-mutates is unchanged; survivors are tried again when the sources have changed. The exit code is 1 if a mutant
-does not compile, or if a folder's score is below its goal.
+mutates is unchanged (docs/killed.json); survivors are tried again when the sources have changed. The exit
+code is 1 if a mutant does not compile, or if a folder's score is below its goal.
 """
 
 from __future__ import annotations
@@ -18,33 +18,24 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job
 from scripts.measure.campaign.run import run
 from scripts.measure.campaign.store import Store
 from scripts.measure.campaign.tree import SIMULATED, tree
-from scripts.measure.mutants.made import replay
+from scripts.measure.mutants.made import killed, replay
 from scripts.measure.mutants.made.chosen import folder_of, rtl_files, sample
 from scripts.measure.mutants.made.faults import Fault
+from scripts.measure.mutants.made.killed import NAME
 from scripts.measure.mutants.made.page import QUICK, SO_FAR, Tried, page, score
 from scripts.measure.mutants.made.suites import Suites
 from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, digest, run_one
 
-NAME = "mutate"
 GOAL, LEAST = 95.0, 70.0
 """Required score of a folder in %: with more than SMALL mutants, and with SMALL or fewer."""
 SMALL = 50
 NOT_GUIDED = "run `make coverage` first to make this much faster"
 
 
-def known() -> dict[str, str]:
-    """Return the stamp of each killed mutant whose file is unchanged, by the key of the mutant."""
-    with Store() as store:
-        return {
-            done.key: stamp
-            for stamp, done in store.all(NAME)
-            if done.data.get("verdict") == KILLED and done.data["file"] == digest(done.key.split(" ")[0])
-        }
-
-
 def replay_all(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
     """Store the mutants that a recorded test kills."""
-    done = known()
+    with Store() as store:
+        done = killed.known(store)
     numbers: dict[str, list[int]] = {}
     for file, fault in chosen:
         if f"{file} {fault.number}" not in done:
@@ -58,6 +49,7 @@ def replay_all(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
             for number, recording in one.data.get("killed", {}).items():
                 data = {"verdict": KILLED, "test": f"recording {recording}", "file": digest(one.key)}
                 store.note(NAME, tree(SIMULATED), Done(f"{one.key} {number}", True, data, 0.0))
+            killed.save()
 
 
 def on_file(keys: Container[str]) -> list[Done]:
@@ -84,10 +76,14 @@ def main() -> int:
         raise ProjectError("--count must be 1 or more")
     files = rtl_files(args.k)
     chosen = list(sample(files, args.count))
+    if not args.fresh:
+        killed.load()
     if args.count is None and not (args.so_far or args.quick or args.fresh):
         replay_all(chosen, workers_of(args))
     suites = None if args.so_far else Suites()
-    stamp, killed = tree(SIMULATED), {} if args.fresh else known()
+    with Store() as store:
+        old = {} if args.fresh else {key: stamp for key, (stamp, _) in killed.known(store).items()}
+    stamp = tree(SIMULATED)
     faults = {}
     jobs = []
     for file, fault in chosen:
@@ -95,7 +91,7 @@ def main() -> int:
         first = args.quick or bool(Tried(file, fault, "", "").why)
         mutant = Mutant(file, fault, tuple(groups[:2] if first else groups), briefly=first)
         faults[mutant.key] = (file, fault)
-        jobs.append(Job(mutant.key, mutant, killed.get(mutant.key, f"{stamp}{' quick' * first}")))
+        jobs.append(Job(mutant.key, mutant, old.get(mutant.key, f"{stamp}{' quick' * first}")))
     tried = []
     campaign = Campaign(NAME, run_one, jobs, len(jobs), "mutants")
     for done in on_file(faults) if args.so_far else run(campaign, workers_of(args), args.fresh):
@@ -106,6 +102,8 @@ def main() -> int:
             console.print(f"{one.verdict}: {file}:{fault.line}: {fault.what}: {one.source}", markup=False)
             if one.verdict == BROKEN:
                 console.print(f"  {one.test or done.data.get('message', '')}", markup=False)
+    if not args.fresh:
+        killed.save()
     tried.sort(key=lambda one: (one.file, one.fault.number))
     path = BUILD / "mutants.md" if args.k else DOCS / "mutants.md"
     note = QUICK if args.quick else SO_FAR if args.so_far else ""
