@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 
 from openppmc.host import Disconnected, NothingToStop, NotInitialised, Ppmc104, open_port
@@ -82,8 +84,11 @@ def test_kill_9_of_the_board(board: SimBoard, openppmc: CommandLine, until: Wait
     """If the board is killed during a move, the running command and the next one each end with one line."""
     process = openppmc.begin(board.port, "move", "30000", *SLOW)
     until(lambda: board.status().pulses > 300, "motor turning")
+    # While a pseudo-terminal is open, no board of a test in another process gets its number.
+    held = os.open(board.port, os.O_RDWR | os.O_NOCTTY)
     board.process.kill()
     _, err = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1 and one_line(err), err
     code, _, err = openppmc.run(board.port, "status")
+    os.close(held)
     assert code == 1 and one_line(err), err
