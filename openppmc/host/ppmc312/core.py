@@ -106,7 +106,7 @@ class Core(Checked, Generic[MotionT]):
         alarm = MISSED.get(self._alarm_status, self.kind.alarm)
         return replace(end, message_prefix=self._message_prefix, alarm=alarm)
 
-    def _polls(self) -> bool:
+    def _may_poll(self) -> bool:
         """Return True if reading the part during a motion cannot cause an alarm."""
         return True
 

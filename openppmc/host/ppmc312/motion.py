@@ -57,7 +57,7 @@ class MotionAxis(Protocol):
 
     _known_position: int
 
-    def _polls(self) -> bool: ...
+    def _may_poll(self) -> bool: ...
     def _position(self, encoder: bool) -> int: ...
     def status(self) -> Status: ...
     def _annotate(self, end: MotionResult) -> MotionResult: ...
@@ -142,7 +142,7 @@ class Motion(Handle):
         """Poll the part; set `result` or `result_error` if the motion is over."""
         if self.over:
             return
-        if not self._part._polls():
+        if not self._part._may_poll():
             self._part.window.collect()
             return
         busy = self._part.status().busy
@@ -187,7 +187,7 @@ class Motion(Handle):
             remaining = pause if limit is None else min(pause, limit - self._link.clock())
             if self._link.wait_event(max(0.0, remaining)) is not None:
                 self._part.window.collect()
-            elif progress is None or not self._part._polls():
+            elif progress is None or not self._part._may_poll():
                 self._update()
             elif (now := self.poll()) is not None:
                 progress(now)

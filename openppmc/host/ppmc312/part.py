@@ -409,7 +409,7 @@ class Ppmc312(Axis[Motion], Part):
             self._waiting = self.status().waiting
         return super()._start(block, direction, requested)
 
-    def _polls(self) -> bool:
+    def _may_poll(self) -> bool:
         return self._waiting == 0 or self.window.was_reset()
 
     @property
