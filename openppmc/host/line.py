@@ -264,7 +264,7 @@ class Master(Generic[Answer]):
         """
         self.send(station, sent)
         counters = self.counters[station]
-        got = self._await(listener, self.seconds(len(sent)) + extra)
+        got = self._await(listener, sent, self.seconds(len(sent)) + extra)
         if isinstance(got, MissingReply):
             if got.fault is Fault.FOREIGN:
                 counters.foreign += 1
@@ -295,7 +295,7 @@ class Master(Generic[Answer]):
         if received[: len(sent)] != sent:
             self.stray_bytes += 1  # another device sends at the same time; the reply will show the effect
 
-    def _await(self, listener: ReplyReceiver[Answer], seconds: float) -> Answer | MissingReply:
+    def _await(self, listener: ReplyReceiver[Answer], sent: bytes, seconds: float) -> Answer | MissingReply:
         """Return the reply, or a MissingReply with the bytes that were received instead."""
         received = bytearray()
         deadline = self.clock() + seconds + self.patience
@@ -314,19 +314,26 @@ class Master(Generic[Answer]):
                     return got
                 if got in (Fault.FOREIGN, Fault.BROKEN) or len(received) > _MOST_NOISE:
                     fault = got if isinstance(got, Fault) else Fault.NOISE
-                    return MissingReply(fault, bytes(received) + data[place + 1 :] + self._read_until_idle())
+                    received += data[place + 1 :]
+                    return MissingReply(fault, self._read_until_idle(bytes(received), sent))
 
     def _missing_reply(self, listener: ReplyReceiver[Answer], received: bytes) -> MissingReply:
         """Return the MissingReply for a wait in which no byte, or no valid reply, was received."""
         return MissingReply(Fault.NOISE if received else None, received)
 
-    def _read_until_idle(self) -> bytes:
-        """Return the bytes that arrive until the line is idle; the wait is limited."""
+    def _read_until_idle(self, received: bytes, sent: bytes) -> bytes:
+        """Return `received` and the bytes that arrive until the line is idle; the wait is limited.
+
+        The wait for the rest of an echo is longer, because a USB adapter may deliver an echo in pieces.
+        """
         gap = max(_GAP, self.seconds(_GAP_BYTES))
-        rest, end = b"", self.clock() + 20 * gap
-        while (data := self.port.read(gap)) and self.clock() < end:
-            rest += data
-        return rest
+        end = self.clock() + 20 * gap
+        while (echo := sent.startswith(received) and received != sent) or self.clock() < end:
+            data = self.port.read(self.patience if echo else gap)
+            if not data:
+                break
+            received += data
+        return received
 
 
 class Station(Stoppable, Protocol):

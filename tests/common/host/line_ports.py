@@ -57,22 +57,25 @@ class Spoiled(ModelLine):
 class Played:
     """A port that answers the n-th frame with the n-th reply, regardless of the frame.
 
-    Its time advances only in `read`.
+    Its time advances only in `read`. With `pause`, it delivers single bytes, each after this time in s.
     """
 
     name = "played"
 
-    def __init__(self, *replies: str, echo: bool = False) -> None:
+    def __init__(self, *replies: str, echo: bool = False, pause: float = 0.0) -> None:
         self.replies = [bytes.fromhex(reply) for reply in replies]
         self.frames: list[bytes] = []
-        self._echo = echo
+        self._echo, self._pause = echo, pause
         self._now = 0.0
         self._waiting = b""
 
     def read(self, timeout: float) -> bytes:
-        data, self._waiting = self._waiting, b""
-        if not data:
+        if not self._waiting or timeout < self._pause:
             self._now += timeout
+            return b""
+        self._now += self._pause
+        count = 1 if self._pause else len(self._waiting)
+        data, self._waiting = self._waiting[:count], self._waiting[count:]
         return data
 
     def write(self, data: bytes) -> None:

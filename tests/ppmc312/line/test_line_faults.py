@@ -373,9 +373,11 @@ def test_an_unplugged_port() -> None:
 # ---------------------------------------------------------------------- replies as texts
 
 
-def station(*replies: str, echo: bool = False, option: bool = False) -> tuple[Played, Station312]:
+def station(
+    *replies: str, echo: bool = False, option: bool = False, pause: float = 0.0
+) -> tuple[Played, Station312]:
     """Return a port that returns these replies, and the driver of station 1 on it."""
-    port = Played(*replies, echo=echo)
+    port = Played(*replies, echo=echo, pause=pause)
     return port, Ppmc312Bus.open(port, 38_400, echo=option).axis(1)
 
 
@@ -441,4 +443,23 @@ def test_echo() -> None:
         axis.version()
     port, axis = station(option=True)
     with pytest.raises(LineEcho, match="does not receive its own bytes"):
+        axis.version()
+
+
+@pytest.mark.parametrize("pause", [0.0005, 0.016, 0.099])
+def test_echo_in_pieces(pause: float) -> None:
+    """An echo is also detected if the adapter delivers its bytes with pauses shorter than `patience`."""
+    port, axis = station("A1 31 32 4C", echo=True, pause=pause)
+    with pytest.raises(LineEcho, match="receives its own bytes"):
+        axis.version()
+    port, axis = station("A1 31 32 4C", echo=True, option=True, pause=pause)
+    assert axis.version() == 0x12 and axis.counters.faults == 0
+
+
+def test_part_of_an_echo_is_noise() -> None:
+    port, axis = station("A1 31 32 4C")
+    axis.version()
+    cut = port.frames[0][:-1].hex()
+    port, axis = station(*[cut] * 5)
+    with pytest.raises(CorruptReply, match="noise"):
         axis.version()
