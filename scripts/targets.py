@@ -75,9 +75,9 @@ test WITH=litex | litex dev | Test openppmc.litex; needs riscv64-unknown-elf-gcc
     {pytest} tests/*/litex [-k {T/or}]
 test WITH=fusesoc | dev | Build the bitstream of a board with FuseSoC and edalize.
     {pytest} tests/*/fusesoc && {py} -m scripts.fpga.packages.plain_boards {BOARD:icebreaker}
-test WITH=versions | sim | Test with the lowest and newest dependencies; T=quick: a sample.
+test WITH=versions | sim | Test with the lowest and newest dependencies.
     {py} -m scripts.measure.versions [-k {T/or}]
-test-board | sim | Test the host package on the virtual board.
+test-board | sim | Test the host package on the virtual board; T=quick: a sample.
     {pytest} tests/*/board -n {J:2} [-k {T/or}]
 test-gates | dev campaign | Run the part tests on netlists; T=quick: a sample.
     [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates {on} [-k {T}] [--seed {SEED}]
@@ -85,7 +85,7 @@ test-verilog | dev campaign | Run the part tests on plain Verilog; T=quick: a sa
     [SIM_MAIN={SIM}] {py} -m scripts.measure.gates --plain {on} [-k {T}] [--seed {SEED}]
 test-bits | dev campaign | Run the tests on bitstreams; T=quick: a sample.
     [SIM_MAIN={SIM_MAIN}] {py} -m scripts.measure.gates --bits {on} [-k {T}] [--seed {SEED}]
-test-web | site | Test the playground under node and in Chromium.
+test-web | site | Test the playground under node and in Chromium; T=quick: a sample.
     rm -f build/site/figures.txt; {pytest} tests/*/web -n {J:2} [-k {T/or}]; code=$?;
     cat build/site/figures.txt 2>/dev/null; exit $code
 lint | dev | Check all sources.
@@ -134,11 +134,13 @@ fuzz | campaign | Send random characters to each deframer and its model.
     {py} -m scripts.measure.fuzz [--seed {SEED}] [--count {COUNT}] {on}
 fire | campaign | Damage the bytes between host drivers and their boards.
     {py} -m scripts.measure.fire --seed {SEED:0} --count {COUNT:10000} {on}
-nightly | dev campaign | Run fuzz, fire, soak, coverage, mutate, test-gates, test-bits, test JITTER=1, prove.
+nightly | dev campaign site | Run all campaigns, and all tests of which CI runs a sample.
     code=0; for work in 'fuzz --count 100000000' 'fire --count 100000'
     'soak all --seed {SEED:1000000} --count {COUNT:2000}' coverage mutants.made gates 'gates --bits'; do
     echo "== nightly: $work"; {py} -m scripts.measure.$work {on} || code=1; done;
     echo '== nightly: jitter'; {pytest} -n {J:2} --jitter || code=1;
+    echo '== nightly: boards, playground'; {pytest} tests/*/board tests/*/web -n {J:2} || code=1;
+    echo '== nightly: versions'; {py} -m scripts.measure.versions || code=1;
     echo '== nightly: proofs'; {py} -m scripts.measure.prove --night -n {J:2} || code=1; exit $code
 replay | sim | Repeat a failed random test on the RTL and the golden model.
     {py} -m scripts.measure.replay {FILE}

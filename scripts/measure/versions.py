@@ -22,13 +22,6 @@ EXTRAS = "[decode,epics,ophyd,plot]"
 TOOLS = re.compile(r"(?:cocotb|find_libpython|hypothesis|pytest[\w-]*)==.*")
 """Pattern of lines in requirements.lock: packages that only the tests need."""
 TESTS = ("tests/*/host", "tests/*/cli", "tests/common/capture", "tests/common/lab")
-QUICK = (
-    "tests/common/host/test_arguments.py",
-    "tests/ppmc312/cli/test_cli.py",
-    "tests/common/capture/test_formats.py",
-    "-k",
-    "arguments or overrides or refusals or sigrok or vcd or help",
-)
 FOUND = "import sys, venv, ensurepip; print(*sys.version_info[:2], sys.executable)"
 
 
@@ -95,10 +88,10 @@ def trial(name: str, python: str, constraints: list[str], tests: list[str]) -> N
 def main(words: list[str] | None = None) -> int:
     """Test with the lowest and with the newest versions; return the exit status."""
     parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
-    parser.add_argument("-k", default="", help="names of tests; `quick`: the sample of CI")
+    parser.add_argument("-k", default="", help="names of tests")
     word = parser.parse_args(words).k
-    tests = list(QUICK) if word == "quick" else [path for one in TESTS for path in glob.glob(one)]
-    if word not in ("", "quick"):
+    tests = [path for one in TESTS for path in glob.glob(one)]
+    if word:
         tests += ["-k", word]
     found = pythons(candidates())
     try:

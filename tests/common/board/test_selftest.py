@@ -26,7 +26,12 @@ from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
 LONG = 20 * PATIENCE
 """Maximum duration in seconds of a whole self-test with its build on a busy computer."""
-OTHERS = [row.name for row in parts.having("selftest") if row.name != "ppmc104"]
+SLOW = pytest.mark.slow
+OTHERS = [
+    pytest.param(row.name, marks=[] if row.name == "stmc" else SLOW)
+    for row in parts.having("selftest")
+    if row.name != "ppmc104"
+]
 FAULTS = {
     "pulse one clk longer": (
         "rtl/motion/ppmc_pulse_shaper.sv",
@@ -74,6 +79,7 @@ def changed_tree(root: Path, file: str, old: str, new: str) -> Path:
     return root
 
 
+@SLOW
 def test_whole_and_clean(tmp_path: Path) -> None:
     """On the unchanged RTL, thousands of edges are compared without a difference, and the page
     reports this.
@@ -103,6 +109,7 @@ def test_other_parts(part: str, tmp_path: Path) -> None:
     assert [one for one in page["sections"] if one["result"] != "no difference"] == []
 
 
+@SLOW
 def test_datasheet_timing(tmp_path: Path) -> None:
     """With DATASHEET timing, moves of each kind agree with the golden model, also moves with the external
     clock, which the board generates.
@@ -112,7 +119,7 @@ def test_datasheet_timing(tmp_path: Path) -> None:
     assert "steps by the clock of the board" in out and "the recorder was full" not in out
 
 
-@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("fault", ["pulse one clk longer", pytest.param("limit pin turned over", marks=SLOW)])
 def test_fault_is_found(fault: str, tmp_path: Path) -> None:
     """If one line of RTL is wrong, the self-test finds the fault, reports and draws it, and lists it on the
     page.
@@ -131,6 +138,7 @@ def test_fault_is_found(fault: str, tmp_path: Path) -> None:
     assert "golden model:" in (tmp_path / "out/selftest.txt").read_text()
 
 
+@SLOW
 def test_jumpers(tmp_path: Path) -> None:
     """With the two jumper wires, limit and origin act as in the model; without them, the self-test reports
     this.

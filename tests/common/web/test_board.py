@@ -77,14 +77,14 @@ def status_server(boards: dict[str, sim.SimBoard]) -> Iterator[str]:
 
 
 @cache
-def checked() -> dict[str, dict[str, str]]:
-    """Return the result of each check in the browser. Without a browser, skip the tests with a message."""
+def checked(other_clocks: bool) -> dict[str, dict[str, str]]:
+    """Return the results of the checks in the browser. Without a browser, skip the tests with a message."""
     try:
         packages(SITE / "browser")
     except ProjectError as error:
         pytest.skip(f"no browser: {error}")
     # A virtual board always needs processor time, so only the boards that the checks use are started.
-    return results(BOARDS, f"^(?!{OTHER_CLOCKS})") | results(REAL, OTHER_CLOCKS)
+    return results(REAL, OTHER_CLOCKS) if other_clocks else results(BOARDS, f"^(?!{OTHER_CLOCKS})")
 
 
 def results(names: Iterable[str], checks: str) -> dict[str, dict[str, str]]:
@@ -108,7 +108,10 @@ def results(names: Iterable[str], checks: str) -> dict[str, dict[str, str]]:
     return {line["name"]: line for line in lines}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.slow] if name == OTHER_CLOCKS else []) for name in NAMES]
+)
 def test_board(name):
     """The panel passes the check without an error in the console."""
-    assert checked()[name].get("error") is None, checked()[name]["error"]
+    result = checked(name == OTHER_CLOCKS)[name]
+    assert result.get("error") is None, result["error"]

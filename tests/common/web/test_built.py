@@ -79,6 +79,7 @@ def test_no_other_host():
     assert {name: found for name, text in pages().items() if (found := LOADS.findall(text))} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_built(name):
     """The page passes its check in a browser without an error in the console."""

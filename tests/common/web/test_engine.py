@@ -55,7 +55,13 @@ def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
     return found
 
 
-@pytest.mark.parametrize("name", WEB_PARTS)
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.slow] if name.startswith("ppmc312") else [])
+        for name in WEB_PARTS
+    ],
+)
 def test_sessions(name):
     """If the page plays a session of the manual, every byte and every edge is correct."""
     part, count = WEB_PARTS[name], 0

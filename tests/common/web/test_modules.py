@@ -30,6 +30,13 @@ take minutes.
 SLOWEST = 0.3
 """Minimum speed of a WebAssembly module, relative to native code."""
 every = pytest.mark.parametrize("name", WEB_PARTS)
+not_slow = pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.slow] if part.stations else [])
+        for name, part in WEB_PARTS.items()
+    ],
+)
 
 
 @cache
@@ -53,7 +60,7 @@ def compared(name: str, recording: Recording) -> int:
     return sum(map(len, actual.values()))
 
 
-@every
+@not_slow
 def test_sessions_of_the_manual(name):
     """In each session of the manual, every byte is the printed one, and every edge is that of the golden
     model.
@@ -69,7 +76,7 @@ def test_sessions_of_the_manual(name):
     assert sum(counts) > 1000
 
 
-@every
+@not_slow
 def test_random_hosts(name):
     """With random hosts, the module changes every output on the same edges as the golden model."""
     part = WEB_PARTS[name]
