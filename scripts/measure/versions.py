@@ -90,9 +90,7 @@ def main(words: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="make test WITH=versions", description=__doc__)
     parser.add_argument("-k", default="", help="names of tests")
     word = parser.parse_args(words).k
-    tests = [path for one in TESTS for path in glob.glob(one)]
-    if word:
-        tests += ["-k", word]
+    tests = [path for one in TESTS for path in glob.glob(one)] + (["-k", word] if word else [])
     found = pythons(candidates())
     try:
         if not found:

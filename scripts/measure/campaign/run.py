@@ -6,8 +6,10 @@ run of the same campaign continues after the stored results.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from itertools import islice
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from itertools import chain, islice
 from typing import Any
 
 from cocotb_tests.harness.project import ProjectError
@@ -62,15 +64,12 @@ def run(
 
 
 def _mixed(fresh: Iterator[Done], olds: list[Done]) -> Iterator[Done]:
-    """Yield the completed jobs, and the stored results that were found before each of them."""
-    while olds:
-        yield olds.pop(0)
-    for done in fresh:
+    """Yield the completed jobs, and after each of them the stored results that were found before it."""
+    for done in chain([None], fresh):
+        if done is not None:
+            yield done
         while olds:
             yield olds.pop(0)
-        yield done
-    while olds:
-        yield olds.pop(0)
 
 
 def _on_workers(
@@ -84,7 +83,8 @@ def _on_workers(
         dask.register_plugin(OwnSession())
 
         def submit(job: Job) -> Any:
-            future = dask.submit(carry_out, campaign.work, job.what, now, pure=False)
+            with _ctrl_c_waits():
+                future = dask.submit(carry_out, campaign.work, job.what, now, pure=False)
             keys[future.key] = job.key
             return future
 
@@ -100,7 +100,21 @@ def _on_workers(
             if keys:
                 dask.cancel([future for future in running.futures], force=True)
                 if not workers.scheduler:
-                    _quietly(lambda: dask.run(stop_children))
+                    with suppress(Exception):  # the campaign is ending
+                        dask.run(stop_children)
+
+
+@contextmanager
+def _ctrl_c_waits() -> Iterator[None]:
+    """Delay Ctrl-C to the end of this context, because half a Future of Dask prints a traceback."""
+    pressed: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: pressed.append(number))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+        for number in pressed[:1]:
+            signal.raise_signal(number)
 
 
 def _ended(future: Any, key: str) -> Done:
@@ -113,11 +127,3 @@ def _ended(future: Any, key: str) -> Done:
     except ProjectError:
         raise
     return Done(key, result.good, dict(result.data), seconds)
-
-
-def _quietly(act: Callable[[], object]) -> None:
-    """Call `act`; ignore its exceptions, because the campaign is ending."""
-    try:
-        act()
-    except Exception:  # noqa: BLE001
-        pass

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+from distributed import Future
 
 from cocotb_tests.harness.project import ROOT, ProjectError
 from scripts.measure.campaign.cluster import Workers
@@ -90,6 +91,22 @@ def test_ctrl_c_and_going_on(tmp_path: Path) -> None:
     assert len(rest.stdout.split()) == 20
     assert sum(work.begun(tmp_path, n) == 1 for n in range(20)) >= kept
     assert all(work.begun(tmp_path, n) <= 2 for n in range(20))
+
+
+def test_ctrl_c_while_a_job_is_submitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ctrl-C during the creation of a Future ends the campaign, and no traceback is printed."""
+    printed: list[str] = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda what: printed.append(str(what.exc_value)))
+    create = Future.__init__
+
+    def interrupted(self: Future, *words: object, **named: object) -> None:
+        signal.raise_signal(signal.SIGINT)
+        create(self, *words, **named)
+
+    monkeypatch.setattr(Future, "__init__", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        ran(tmp_path, work.square, 5)
+    assert printed == []
 
 
 def test_mistakes_are_one_line(tmp_path: Path) -> None:
