@@ -33,7 +33,7 @@ OTHERS = [
     if row.name != "ppmc104"
 ]
 FAULTS = {
-    "pulse one clk longer": (
+    "pulse one cycle longer": (
         "rtl/motion/ppmc_pulse_shaper.sv",
         "(WidthCycles - 2, Width)",
         "(WidthCycles - 1, Width)",
@@ -119,7 +119,9 @@ def test_datasheet_timing(tmp_path: Path) -> None:
     assert "steps by the clock of the board" in out and "the recorder was full" not in out
 
 
-@pytest.mark.parametrize("fault", ["pulse one clk longer", pytest.param("limit pin turned over", marks=SLOW)])
+@pytest.mark.parametrize(
+    "fault", [pytest.param(name, marks=SLOW if name.startswith("limit") else []) for name in FAULTS]
+)
 def test_fault_is_found(fault: str, tmp_path: Path) -> None:
     """If one line of RTL is wrong, the self-test finds the fault, reports and draws it, and lists it on the
     page.
