@@ -22,16 +22,12 @@ from openppmc.host.selftest.plan import REGISTERS, PartAccess, Section
 from openppmc.host.selftest.ppmc104 import PLAN
 from openppmc.host.selftest.run import TRIES, SelfTest
 
+from ..slow import slow_if
 from .fixtures import PATIENCE, CommandLine, StartBoard, Wait, one_line
 
 LONG = 20 * PATIENCE
 """Maximum duration in seconds of a whole self-test with its build on a busy computer."""
-SLOW = pytest.mark.slow
-OTHERS = [
-    pytest.param(row.name, marks=[] if row.name == "stmc" else SLOW)
-    for row in parts.having("selftest")
-    if row.name != "ppmc104"
-]
+OTHERS = [row.name for row in parts.having("selftest") if row.name != "ppmc104"]
 FAULTS = {
     "pulse one cycle longer": (
         "rtl/motion/ppmc_pulse_shaper.sv",
@@ -79,7 +75,7 @@ def changed_tree(root: Path, file: str, old: str, new: str) -> Path:
     return root
 
 
-@SLOW
+@pytest.mark.slow
 def test_whole_and_clean(tmp_path: Path) -> None:
     """On the unchanged RTL, thousands of edges are compared without a difference, and the page
     reports this.
@@ -97,7 +93,7 @@ def test_whole_and_clean(tmp_path: Path) -> None:
     assert (tmp_path / "selftest.txt").read_text().strip().endswith(last)
 
 
-@pytest.mark.parametrize("part", OTHERS)
+@pytest.mark.parametrize("part", slow_if(lambda name: name != "stmc", OTHERS))
 def test_other_parts(part: str, tmp_path: Path) -> None:
     """For every other device, registers and moves of each kind agree with the golden model."""
     words = ("--only", "registers", "--only", "moves")
@@ -109,7 +105,7 @@ def test_other_parts(part: str, tmp_path: Path) -> None:
     assert [one for one in page["sections"] if one["result"] != "no difference"] == []
 
 
-@SLOW
+@pytest.mark.slow
 def test_datasheet_timing(tmp_path: Path) -> None:
     """With DATASHEET timing, moves of each kind agree with the golden model, also moves with the external
     clock, which the board generates.
@@ -119,9 +115,7 @@ def test_datasheet_timing(tmp_path: Path) -> None:
     assert "steps by the clock of the board" in out and "the recorder was full" not in out
 
 
-@pytest.mark.parametrize(
-    "fault", [pytest.param(name, marks=SLOW if name.startswith("limit") else []) for name in FAULTS]
-)
+@pytest.mark.parametrize("fault", slow_if(lambda name: name.startswith("limit"), FAULTS))
 def test_fault_is_found(fault: str, tmp_path: Path) -> None:
     """If one line of RTL is wrong, the self-test finds the fault, reports and draws it, and lists it on the
     page.
@@ -140,7 +134,7 @@ def test_fault_is_found(fault: str, tmp_path: Path) -> None:
     assert "golden model:" in (tmp_path / "out/selftest.txt").read_text()
 
 
-@SLOW
+@pytest.mark.slow
 def test_jumpers(tmp_path: Path) -> None:
     """With the two jumper wires, limit and origin act as in the model; without them, the self-test reports
     this.

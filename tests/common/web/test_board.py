@@ -22,6 +22,7 @@ from openppmc import sim
 from openppmc.sim.common.board import to_stderr
 from scripts.site.pages import SITE, packages, playground
 from scripts.site.webparts import BUILDS
+from tests.common.slow import slow_if
 from tests.common.web.counters import add
 
 HERE = ROOT / "tests/common/web"
@@ -108,9 +109,7 @@ def results(names: Iterable[str], checks: str) -> dict[str, dict[str, str]]:
     return {line["name"]: line for line in lines}
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.slow] if name == OTHER_CLOCKS else []) for name in NAMES]
-)
+@pytest.mark.parametrize("name", slow_if(lambda name: name == OTHER_CLOCKS, NAMES))
 def test_board(name):
     """The panel passes the check without an error in the console."""
     result = checked(name == OTHER_CLOCKS)[name]

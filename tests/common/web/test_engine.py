@@ -18,6 +18,7 @@ from scripts.fpga.flow.plain_sim import words
 from scripts.site.pages import playground
 from scripts.site.sessions import sessions
 from scripts.site.webparts import WEB_PARTS, Motor, WebPart
+from tests.common.slow import slow_if
 from tests.common.web.counters import add, left_out
 from tests.common.web.moves import MOVES
 from tests.common.web.players import player
@@ -55,13 +56,7 @@ def edges(part: WebPart, rows: list[list[int]]) -> list[Edge]:
     return found
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=[pytest.mark.slow] if name.startswith("ppmc312") else [])
-        for name in WEB_PARTS
-    ],
-)
+@pytest.mark.parametrize("name", slow_if(lambda name: name.startswith("ppmc312"), WEB_PARTS))
 def test_sessions(name):
     """If the page plays a session of the manual, every byte and every edge is correct."""
     part, count = WEB_PARTS[name], 0

@@ -14,6 +14,7 @@ from openppmc.check.records import Recording
 from scripts.site import wasm
 from scripts.site.sessions import sessions
 from scripts.site.webparts import BUILDS, WEB_PARTS, WebPart
+from tests.common.slow import slow_if
 from tests.common.web import hosts
 from tests.common.web.counters import add, left_out
 from tests.common.web.module import Module
@@ -30,13 +31,7 @@ take minutes.
 SLOWEST = 0.3
 """Minimum speed of a WebAssembly module, relative to native code."""
 every = pytest.mark.parametrize("name", WEB_PARTS)
-not_slow = pytest.mark.parametrize(
-    "name",
-    [
-        pytest.param(name, marks=[pytest.mark.slow] if part.stations else [])
-        for name, part in WEB_PARTS.items()
-    ],
-)
+lines_slow = pytest.mark.parametrize("name", slow_if(lambda name: bool(WEB_PARTS[name].stations), WEB_PARTS))
 
 
 @cache
@@ -60,7 +55,7 @@ def compared(name: str, recording: Recording) -> int:
     return sum(map(len, actual.values()))
 
 
-@not_slow
+@lines_slow
 def test_sessions_of_the_manual(name):
     """In each session of the manual, every byte is the printed one, and every edge is that of the golden
     model.
@@ -76,7 +71,7 @@ def test_sessions_of_the_manual(name):
     assert sum(counts) > 1000
 
 
-@not_slow
+@lines_slow
 def test_random_hosts(name):
     """With random hosts, the module changes every output on the same edges as the golden model."""
     part = WEB_PARTS[name]
