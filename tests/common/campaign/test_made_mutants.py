@@ -11,13 +11,13 @@ from cocotb_tests.harness.project import ROOT, ProjectError
 from openppmc.check.records import Edge, Recording
 from scripts.measure.campaign.jobs import Done
 from scripts.measure.campaign.store import Store
-from scripts.measure.mutants.made import killed, page, replay, work
+from scripts.measure.mutants.made import equal, killed, page, replay, work
 from scripts.measure.mutants.made.chosen import of_file, rtl_files, sample
 from scripts.measure.mutants.made.faults import alone, faults
 from scripts.measure.mutants.made.page import Tried, score
 from scripts.measure.mutants.made.proved import proofs_of
 from scripts.measure.mutants.made.schema import CHOSEN, instrumented
-from scripts.measure.mutants.made.work import ALIVE, ENDLESS, KILLED, PROOF, Mutant, met
+from scripts.measure.mutants.made.work import ALIVE, ENDLESS, EQUAL, KILLED, PROOF, Bulk, Mutant, met
 from scripts.measure.syntax import findings
 
 TEXT = """module m #(parameter int W = 4 + 1) (input wire logic clk_i, rst_ni, a, b, output logic [W-1:0] q);
@@ -95,10 +95,25 @@ def test_recordings_kill_mutants(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
         (tmp_path / f"{name}.json").write_text(recording.to_json(), encoding="ascii")
     file = "rtl/motion/ppmc_pulse_shaper.sv"
     replay.designs.cache_clear()
-    done = replay.replayed(replay.Work(file, tuple(fault.number for fault in of_file(file))))
+    done = replay.replayed(Bulk(tuple((file, fault.number) for fault in of_file(file))))
     replay.designs.cache_clear()
-    assert set(done.data["killed"].values()) == {"right"}
-    assert 0 < len(done.data["killed"]) < len(of_file(file)) // 2
+    assert set(done.data["found"].values()) == {"recording right"}
+    assert 0 < len(done.data["found"]) < len(of_file(file)) // 2
+
+
+def test_equal_mutants(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A comparison that is used only after a strobe may be stored in every cycle. The other conditions of the
+    block cannot always be true. A mutant that no part contains is not equal.
+    """
+    monkeypatch.setattr(equal, "settings", lambda _row: [("", {})])
+    file, other = "rtl/pmc006/drive/pmc006_stall.sv", "rtl/ppmc104/ppmc104_proc_time.sv"
+    always = {fault.number: fault.line for fault in of_file(file) if fault.what == "always"}
+    found = equal.equal(Bulk(tuple((file, number) for number in always))).data["found"]
+    assert [page.lines(file)[always[int(key.split()[1])] - 1].split("(")[1] for key in found] == [
+        "sample_i.valid) low_q <= sample_i.level < {1'b0, limit_i};"
+    ]
+    assert len(always) == 3
+    assert not equal.equal(Bulk(tuple((other, fault.number) for fault in of_file(other)))).data["found"]
 
 
 def test_another_machine_continues(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -115,6 +130,7 @@ def test_another_machine_continues(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
             (files[0], 2, KILLED, f"{PROOF}p"),
             (files[0], 3, ALIVE, ""),
             (files[0], 4, KILLED, "a test"),
+            (files[0], 5, EQUAL, ""),
             (files[1], 1, KILLED, "a test"),
             (files[2], 1, ALIVE, ""),
         ):
@@ -126,8 +142,13 @@ def test_another_machine_continues(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
     (tmp_path / "results.sqlite").unlink()
     killed.load()
     with Store(tmp_path / "results.sqlite") as store:
-        found = {key: done.data["test"].startswith(PROOF) for key, (_, done) in killed.known(store).items()}
-    assert found == {f"{files[0]} 1": False, f"{files[0]} 2": True, f"{files[0]} 4": False}
+        done = [done for _, done in killed.known(store).values()]
+    assert {(one.key, one.data["verdict"], one.data["test"].startswith(PROOF)) for one in done} == {
+        (f"{files[0]} 1", KILLED, False),
+        (f"{files[0]} 2", KILLED, True),
+        (f"{files[0]} 4", KILLED, False),
+        (f"{files[0]} 5", EQUAL, False),
+    }
 
 
 def test_one_alone() -> None:
@@ -222,11 +243,12 @@ def test_scores(monkeypatch: pytest.MonkeyPatch) -> None:
     file = "rtl/common/ppmc_sync.sv"
     fault = faults(TEXT)[0]
     tried = [Tried(file, fault, verdict, "") for verdict in (KILLED, KILLED, ENDLESS, ALIVE)]
-    tried.append(Tried(file, fault, KILLED, f"{PROOF}ppmc_sync"))
+    tried += [Tried(file, fault, KILLED, f"{PROOF}ppmc_sync"), Tried(file, fault, EQUAL, "")]
     found = score(tried, 9)
     assert (found.percent, found.killed, found.proved, found.endless, found.alive) == (75, 3, 1, 1, 1)
+    assert found.equivalent == 1
     monkeypatch.setattr(page, "judged", lambda: {(file, tried[0].source, fault.what): "the same"})
-    assert (found := score(tried, 9)).percent == 100 and found.equivalent == 1 and found.alive == 0
+    assert (found := score(tried, 9)).percent == 100 and found.equivalent == 2 and found.alive == 0
     assert "equivalent: the same" in page.page(tried, [file], page.QUICK)
 
 

@@ -1,15 +1,17 @@
 """`make mutate`: run proofs and tests on each mutant of rtl/ until one fails.
 
-A run of all mutants first replays recorded tests into them (`replay`). It writes docs/mutants.md if all
-folders are included, else build/mutants.md. A killed mutant is not tried again while the source file that it
-mutates is unchanged (docs/killed.json); survivors are tried again when the sources have changed. The exit
-code is 1 if a mutant does not compile, or if a folder's score is below its goal.
+A run of all mutants first replays recorded tests into them (`replay`), and proves that some behave like the
+RTL (`equal`). It writes docs/mutants.md if all folders are included, else build/mutants.md. A killed or equal
+mutant is not tried again while the source file that it mutates is unchanged (docs/killed.json); survivors are
+tried again when the sources have changed. The exit code is 1 if a mutant does not compile, or if a folder's
+score is below its goal.
 """
 
 from __future__ import annotations
 
 import argparse
 from collections.abc import Container, Sequence
+from pathlib import Path
 
 from cocotb_tests.harness.project import BUILD, DOCS, ProjectError, console, relative
 from cocotb_tests.harness.project import run as guarded
@@ -18,13 +20,13 @@ from scripts.measure.campaign.jobs import Campaign, Done, Job
 from scripts.measure.campaign.run import run
 from scripts.measure.campaign.store import Store
 from scripts.measure.campaign.tree import SIMULATED, tree
-from scripts.measure.mutants.made import killed, replay
+from scripts.measure.mutants.made import equal, killed, replay
 from scripts.measure.mutants.made.chosen import folder_of, rtl_files, sample
 from scripts.measure.mutants.made.faults import Fault
 from scripts.measure.mutants.made.killed import NAME
 from scripts.measure.mutants.made.page import QUICK, SO_FAR, Tried, page, score
 from scripts.measure.mutants.made.suites import Suites
-from scripts.measure.mutants.made.work import ALIVE, BROKEN, KILLED, Mutant, digest, run_one
+from scripts.measure.mutants.made.work import ALIVE, BROKEN, EQUAL, KILLED, Bulk, Mutant, digest, run_one
 
 GOAL, LEAST = 95.0, 70.0
 """Required score of a folder in %: with more than SMALL mutants, and with SMALL or fewer."""
@@ -32,24 +34,25 @@ SMALL = 50
 NOT_GUIDED = "run `make coverage` first to make this much faster"
 
 
-def replay_all(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
-    """Store the mutants that a recorded test kills."""
-    with Store() as store:
-        done = killed.known(store)
-    numbers: dict[str, list[int]] = {}
-    for file, fault in chosen:
-        if f"{file} {fault.number}" not in done:
-            numbers.setdefault(file, []).append(fault.number)
-    if not numbers:
-        return
-    replay.record(workers.count)
-    jobs = [Job(file, replay.Work(file, tuple(mine))) for file, mine in numbers.items()]
-    with Store() as store:
-        for one in run(Campaign("replay", replay.replayed, jobs, len(jobs), "files"), workers):
-            for number, recording in one.data.get("killed", {}).items():
-                data = {"verdict": KILLED, "test": f"recording {recording}", "file": digest(one.key)}
-                store.note(NAME, tree(SIMULATED), Done(f"{one.key} {number}", True, data, 0.0))
-            killed.save()
+def in_bulk(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
+    """Store the mutants that a recorded test kills, then those that are proved equal to the RTL."""
+    for name, function, verdict in (("replay", replay.replayed, KILLED), ("equal", equal.equal, EQUAL)):
+        with Store() as store:
+            done = killed.known(store)
+        jobs: dict[str, list[tuple[str, int]]] = {}
+        for file, fault in chosen:
+            if f"{file} {fault.number}" not in done:
+                key = str(Path(file).parent) if verdict == KILLED else file
+                jobs.setdefault(key, []).append((file, fault.number))
+        if jobs and verdict == KILLED:
+            replay.record(workers.count)
+        todo = [Job(key, Bulk(tuple(mutants))) for key, mutants in jobs.items()]
+        with Store() as store:
+            for one in run(Campaign(name, function, todo, len(todo), "files"), workers):
+                for mutant, test in one.data.get("found", {}).items():
+                    data = {"verdict": verdict, "test": test, "file": digest(mutant.split(" ")[0])}
+                    store.note(NAME, tree(SIMULATED), Done(mutant, True, data, 0.0))
+                killed.save()
 
 
 def on_file(keys: Container[str]) -> list[Done]:
@@ -79,7 +82,7 @@ def main() -> int:
     if not args.fresh:
         killed.load()
     if args.count is None and not (args.so_far or args.quick or args.fresh):
-        replay_all(chosen, workers_of(args))
+        in_bulk(chosen, workers_of(args))
     suites = None if args.so_far else Suites()
     with Store() as store:
         old = {} if args.fresh else {key: stamp for key, (stamp, _) in killed.known(store).items()}

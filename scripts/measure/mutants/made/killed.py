@@ -1,4 +1,4 @@
-"""docs/killed.json: the killed mutants of each source file, so that any machine can continue a run."""
+"""docs/killed.json: the killed and equal mutants of each file, so that any machine can continue a run."""
 
 from __future__ import annotations
 
@@ -10,20 +10,24 @@ from cocotb_tests.harness.project import DOCS
 from scripts.measure.campaign.jobs import Done
 from scripts.measure.campaign.store import Store
 from scripts.measure.mutants.made.chosen import rtl_files
-from scripts.measure.mutants.made.work import KILLED, PROOF, digest
+from scripts.measure.mutants.made.work import EQUAL, KILLED, PROOF, digest
 
 NAME = "mutate"
 PAGE = DOCS / "killed.json"
-EARLIER = {"proof": f"{PROOF}of an earlier run", "test": "of an earlier run"}
-"""Name of what killed a mutant of this page, by the key of its list."""
+EARLIER = {
+    "proof": (KILLED, f"{PROOF}of an earlier run"),
+    "test": (KILLED, "of an earlier run"),
+    "equal": (EQUAL, ""),
+}
+"""Verdict and name of what killed a mutant of this page, by the key of its list."""
 
 
 def known(store: Store) -> dict[str, tuple[str, Done]]:
-    """Return stamp and result of each killed mutant whose file is unchanged, by the key of the mutant."""
+    """Return stamp and result of each killed or equal mutant whose file is unchanged, by the mutant's key."""
     return {
         done.key: (stamp, done)
         for stamp, done in store.all(NAME)
-        if done.data.get("verdict") == KILLED and done.data["file"] == digest(done.key.split(" ")[0])
+        if done.data.get("verdict") in (KILLED, EQUAL) and done.data["file"] == digest(done.key.split(" ")[0])
     }
 
 
@@ -36,21 +40,22 @@ def load() -> None:
         for file, entry in entries.items():
             if file not in files or entry["digest"] != digest(file):
                 continue
-            for kind, test in EARLIER.items():
-                data = {"verdict": KILLED, "test": test, "file": entry["digest"]}
-                for key in (f"{file} {number}" for number in _numbers(entry[kind])):
+            for kind, (verdict, test) in EARLIER.items():
+                data = {"verdict": verdict, "test": test, "file": entry["digest"]}
+                for key in (f"{file} {number}" for number in _numbers(entry.get(kind, ""))):
                     if key not in old:
                         store.note(NAME, "earlier", Done(key, True, data, 0.0))
 
 
 def save() -> None:
-    """Write all killed mutants of unchanged files to docs/killed.json."""
+    """Write all killed and equal mutants of unchanged files to docs/killed.json."""
     found: dict[str, dict[str, list[int]]] = {}
     with Store() as store:
         for key, (_, done) in known(store).items():
             file, number = key.split(" ")
             kind = "proof" if done.data["test"].startswith(PROOF) else "test"
-            found.setdefault(file, {"proof": [], "test": []})[kind].append(int(number))
+            kind = "equal" if done.data["verdict"] == EQUAL else kind
+            found.setdefault(file, {kind: [] for kind in EARLIER})[kind].append(int(number))
     rows = {
         file: {"digest": digest(file), **{kind: _ranges(sorted(all_)) for kind, all_ in kinds.items()}}
         for file, kinds in sorted(found.items())

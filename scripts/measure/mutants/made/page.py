@@ -13,7 +13,7 @@ from cocotb_tests.harness.project import ROOT, ProjectError
 from scripts.markdown import table
 from scripts.measure.mutants.made.chosen import folder_of, of_file
 from scripts.measure.mutants.made.faults import Fault
-from scripts.measure.mutants.made.work import ALIVE, BROKEN, ENDLESS, KILLED, PROOF
+from scripts.measure.mutants.made.work import ALIVE, BROKEN, ENDLESS, EQUAL, KILLED, PROOF
 
 JUDGED = Path(__file__).with_name("judged.yml")
 HEAD = """# Mutants
@@ -23,12 +23,13 @@ A mutant is the RTL with one small fault: an operator, a constant, a condition, 
 ([how they are made](testing.md#mutants-by-rule)).
 It is killed if a proof or a test fails; the proofs of its block run first.
 *No end*: the tests do not terminate with it; these mutants are counted separately.
-*Equivalent*: a review found that it behaves like the RTL.
+*Equivalent*: a proof or a review found that it behaves like the RTL.
 *Survived* does not include equivalent mutants.
 The score is killed / (killed + survived).
 """
 QUICK = "**Only the first tests of each mutant were run here: some survivors would be killed.**\n"
 SCORES = ("made", "tried", "killed", "by a proof", "no end", "equivalent", "survived", "score")
+RESULTS = (KILLED, EQUAL, ENDLESS, BROKEN)
 SO_FAR = "The mutants ran at different times; for some survivors only the first tests were run.\n"
 
 
@@ -98,10 +99,11 @@ def score(tried: Sequence[Tried], made: int) -> Score:
         made: number of all mutants of the file or folder.
     """
     alive = [one for one in tried if one.verdict == ALIVE]
-    equivalent = sum(bool(one.why) for one in alive)
-    count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in (KILLED, ENDLESS, BROKEN)}
+    judged_equal = sum(bool(one.why) for one in alive)
+    count = {verdict: sum(one.verdict == verdict for one in tried) for verdict in RESULTS}
     proved = sum(one.test.startswith(PROOF) for one in tried)
-    left = len(alive) - equivalent
+    left = len(alive) - judged_equal
+    equivalent = count[EQUAL] + judged_equal
     return Score(made, count[KILLED], proved, count[ENDLESS], equivalent, left, count[BROKEN])
 
 

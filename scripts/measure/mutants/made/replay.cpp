@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program that replays recordings of tests into the mutants of a design:
-//     Vtop RECORDINGS EVERY BUDGET MUTANT ...
-// It first replays each recording without a mutant, and notes the mutants that have another value than the RTL; only
-// these mutants are tried with this recording. For each mutant it prints its number, and the number of the first
-// recording in which an output differs, or -1 if there is none within BUDGET cycles. replay.py writes the file of
-// recordings, which consists of 64-bit words and names.
+//     Vtop RECORDINGS EVERY BUDGET FILES MUTANT ...
+// FILES is the number of mutants by which the numbers of two files differ. It first replays each recording without a
+// mutant, and notes the mutants that have another value than the RTL; only these mutants are tried with this recording.
+// Of each file, the recordings are tried first that note the most of its mutants in the fewest cycles. For each mutant
+// in which an output differs within BUDGET cycles, the program prints its number, and the number of the recording.
+// replay.py writes the file of recordings, which consists of 64-bit words and names.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <list>
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,13 +36,15 @@ struct Recording {
     Word number, end;
     std::vector<Word> levels;  // of all words of all ports at the start
     std::vector<Row> inputs, outputs;
-    std::set<int> noted;  // mutants that have another value than the RTL
+    std::vector<char> noted;  // by number of the mutant: whether it has another value than the RTL
 };
+
+constexpr double START = 1'000;  // the start of a replay takes as long as this number of cycles
 
 std::vector<std::string> ports;  // clk, rst_n, the other inputs, the outputs
 Word inputs = 0;                 // number of words of the inputs
 std::list<Recording> recordings;
-std::set<int> noted;
+std::vector<char> noted;
 
 class Reader {
   public:
@@ -140,38 +147,82 @@ bool differs(const Recording& recording, const std::string& mutant) {
     return false;
 }
 
+// Like differs, but in a copy of this process, because a mutant whose levels do not become stable aborts the process. Its
+// tests show whether they fail.
+bool differs_safely(const Recording& recording, const std::string& mutant) {
+    const pid_t copy = fork();
+    if (copy == 0) _exit(differs(recording, mutant));
+    int status = 0;
+    if (copy < 0 || waitpid(copy, &status, 0) != copy) std::abort();
+    return WIFEXITED(status) && WEXITSTATUS(status) == 1;
+}
+
+// Return the recordings in the order in which they are tried for the mutants [first, last) of a file. Each round of
+// the order consists of few and short recordings that note all these mutants.
+std::list<const Recording*> order(int first, int last) {
+    std::list<const Recording*> found;
+    std::vector<const Recording*> left;
+    for (const Recording& recording : recordings) left.push_back(&recording);
+    std::vector<char> wanted(last - first, true);
+    const auto value = [&](const Recording* recording) {
+        int count = 0;
+        for (int n = first; n < last; ++n) count += wanted[n - first] && recording->noted[n];
+        return count / (START + static_cast<double>(recording->end));
+    };
+    while (!left.empty()) {
+        std::vector<double> values;
+        for (const Recording* recording : left) values.push_back(value(recording));
+        const auto best = std::max_element(values.begin(), values.end());
+        if (*best > 0) {
+            const auto at = left.begin() + (best - values.begin());
+            found.push_back(*at);
+            for (int n = first; n < last; ++n)
+                if ((*at)->noted[n]) wanted[n - first] = false;
+            left.erase(at);
+        } else if (std::find(wanted.begin(), wanted.end(), false) != wanted.end()) {
+            wanted.assign(wanted.size(), true);
+        } else {
+            break;
+        }
+    }
+    return found;
+}
+
 }  // namespace
 
 // The design calls this function.
-extern "C" int openppmc_note(int number, int differs) {
-    if (differs) noted.insert(number);
+extern "C" int openppmc_note(int number) {
+    noted[number] = true;
     return 0;
 }
 
 int main(int argc, char** argv) {
     read(argv[1]);
+    const int files = std::stoi(argv[4]), end = (std::stoi(argv[argc - 1]) / files + 1) * files;
     for (auto at = recordings.begin(); at != recordings.end();) {
         const auto now = at++;
-        noted.clear();
+        noted.assign(end, false);
         // The replay cannot repeat every test, for example one that changes rst_n between two edges.
         if (differs(*now, argv[2]))
             recordings.erase(now);
         else
             now->noted.swap(noted);
     }
-    for (int n = 4; n < argc; ++n) {
-        long long number = -1;
+    std::map<int, std::list<const Recording*>> orders;
+    for (int n = 5; n < argc; ++n) {
+        const int mutant = std::stoi(argv[n]), file = mutant / files * files;
+        if (!orders.count(file)) orders[file] = order(file, file + files);
+        auto& mine = orders[file];
         Word left = std::stoull(argv[3]);
-        for (auto at = recordings.begin(); at != recordings.end(); ++at) {
-            if (!at->noted.count(std::stoi(argv[n])) || left < at->end) continue;
-            left -= at->end;
-            if (!differs(*at, argv[n])) continue;
-            number = static_cast<long long>(at->number);
+        for (auto at = mine.begin(); at != mine.end(); ++at) {
+            if (!(*at)->noted[mutant] || left < (*at)->end) continue;
+            left -= (*at)->end;
+            if (!differs_safely(**at, argv[n])) continue;
+            std::printf("%d %llu\n", mutant, static_cast<unsigned long long>((*at)->number));
+            std::fflush(stdout);
             // The next mutant of the file is probably found by the same recording.
-            recordings.splice(recordings.begin(), recordings, at);
+            mine.splice(mine.begin(), mine, at);
             break;
         }
-        std::printf("%s %lld\n", argv[n], number);
-        std::fflush(stdout);
     }
 }

@@ -1,9 +1,8 @@
-"""Replay of recorded tests into all mutants of a file, which is much faster than the tests themselves.
+"""Replay of recorded tests into all mutants of a folder, which is much faster than the tests themselves.
 
 A test compares every output with the golden model, and its host acts only on what it has read. Up to the
 first difference, a mutant therefore receives the inputs that the RTL received: a mutant that differs from the
-recording of a passed test fails this test. A mutant that differs from no recording is tried with proofs and
-tests.
+recording of a passed test fails this test. A mutant that differs in no replay is tried with proofs and tests.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import shutil
 import struct
 import subprocess
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate, chain
 from pathlib import Path
@@ -31,21 +29,15 @@ from scripts.measure.campaign.jobs import Result
 from scripts.measure.campaign.tree import SIMULATED, tree
 from scripts.measure.coverage.work import pytest
 from scripts.measure.mutants.made.schema import EVERY
-from scripts.measure.mutants.made.work import copy_of
+from scripts.measure.mutants.made.work import Bulk, noting_copy_of
 
-TOTAL, BUDGET = 5_000_000, 500_000
-"""Maximum numbers of cycles: of all recordings of a design, and of those replayed into one mutant."""
-FEWEST = 20
-"""Minimum number of recordings of a design, because the design is built for each file."""
+LONGEST, BUDGET = 500_000, 3_000_000
+"""Maximum numbers of cycles: of a recording, and of those replayed into one mutant of a design."""
+FEWEST = 50
+"""Minimum number of recordings of a design, because the design is built for each folder."""
 _WORD = 64
-
-
-@dataclass(frozen=True)
-class Work:
-    """Mutants of one file, by number."""
-
-    file: str
-    numbers: tuple[int, ...]
+_MANY = 1_000
+"""Maximum number of mutants of a file."""
 
 
 def folder() -> Path:
@@ -70,7 +62,7 @@ def record(workers: int) -> None:
 
 @cache
 def designs() -> dict[tuple[str, str], list[Path]]:
-    """Return the shortest recordings of each design (part and parameters), the shortest first.
+    """Return the recordings of each design (part and parameters), the shortest first.
 
     The design with most recordings is first.
     """
@@ -78,35 +70,36 @@ def designs() -> dict[tuple[str, str], list[Path]]:
     for path in folder().glob("*.json"):
         recording = json.loads(path.read_text(encoding="ascii"))
         design = recording["part"], json.dumps(recording["params"])
-        found.setdefault(design, []).append((recording["end"], path))
-    kept = {}
-    for design, recordings in found.items():
-        sums = accumulate(end for end, _ in sorted(recordings))
-        short = [path for (_, path), total in zip(sorted(recordings), sums, strict=True) if total <= TOTAL]
-        if len(short) >= FEWEST:
-            kept[design] = short
+        if recording["end"] <= LONGEST:
+            found.setdefault(design, []).append((recording["end"], path))
+    kept = {
+        design: [path for _, path in sorted(rows)] for design, rows in found.items() if len(rows) >= FEWEST
+    }
     return dict(sorted(kept.items(), key=lambda one: -len(one[1])))
 
 
-def replayed(work: Work) -> Result:
-    """Replay recordings into the mutants of a file; return the digest of the one that kills each mutant."""
-    killed: dict[int, str] = {}
+def replayed(work: Bulk) -> Result:
+    """Replay recordings into the mutants of a folder; return the digest of the one that kills each mutant."""
+    killed: dict[str, str] = {}
     for (part, params), recordings in designs().items():
-        left = [number for number in work.numbers if number not in killed]
-        if left and ROOT / work.file in sources(rtl_part(part)):
-            killed |= _killed(work.file, left, part, params, recordings)
-    return Result(True, {"killed": {str(number): name for number, name in killed.items()}})
+        every = sources(rtl_part(part))
+        left = [(file, n) for file, n in work.mutants if f"{file} {n}" not in killed and ROOT / file in every]
+        if left:
+            killed |= _killed(left, part, params, recordings)
+    return Result(True, {"found": {key: f"recording {name}" for key, name in killed.items()}})
 
 
 def _killed(
-    file: str, numbers: Sequence[int], part: str, params: str, recordings: Sequence[Path]
-) -> Iterator[tuple[int, str]]:
+    mutants: Sequence[tuple[str, int]], part: str, params: str, recordings: Sequence[Path]
+) -> Iterator[tuple[str, str]]:
     """Yield each mutant that the recordings of one design kill, and the digest of the recording."""
     row, values = rtl_part(part), json.loads(params)
     pins = recorded(part, values)
+    files = sorted({file for file, _ in mutants})
+    copies = {ROOT / file: noting_copy_of(file, place * _MANY) for place, file in enumerate(files)}
     design = build.Design(
         row.top,
-        [copy_of(file, notes=True) if path == ROOT / file else path for path in sources(row)],
+        [copies.get(path, path) for path in sources(row)],
         include_dirs(),
         values,
         (*MUTANT_WARNINGS, "-Wno-SIDEEFFECT", "--no-assert"),
@@ -118,14 +111,12 @@ def _killed(
     with build.locked(packed.with_suffix(".lock")):
         if not packed.is_file():
             packed.write_bytes(_packed(pins, values, recordings))
-    left = list(numbers)
-    while left:
-        command = [str(program), str(packed), str(EVERY), str(BUDGET), *map(str, left)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        rows = [tuple(map(int, line.split())) for line in done.stdout.splitlines()]
-        yield from ((number, recordings[place].stem) for number, place in rows if place >= 0)
-        # The program ends at a mutant whose levels do not become stable; its tests show whether they fail.
-        left = left[len(rows) + 1 :]
+    numbers = [files.index(file) * _MANY + number for file, number in mutants]
+    command = [program, packed, str(EVERY), str(BUDGET), str(_MANY), *map(str, numbers)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    for line in done.stdout.splitlines():
+        number, place = map(int, line.split())
+        yield f"{files[number // _MANY]} {number % _MANY}", recordings[place].stem
 
 
 def _packed(pins: Part, params: Mapping[str, object], recordings: Sequence[Path]) -> bytes:

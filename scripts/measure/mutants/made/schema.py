@@ -16,9 +16,9 @@ from scripts.measure.syntax import found, span, tree
 
 CHOSEN = "openppmc_mutant"
 DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSEN})) {CHOSEN} = 0;'
-EVERY = 999_999
+EVERY = 99_999
 NOTE = "openppmc_note"
-NOTED = f' import "DPI-C" function int {NOTE}(input int number, input int differs);'
+NOTED = f' import "DPI-C" function int {NOTE}(input int number);'
 
 
 def _heads(text: str) -> list[int]:
@@ -26,8 +26,12 @@ def _heads(text: str) -> list[int]:
     return [span(node.header)[1] for node in found(tree(text), "ModuleDeclaration")]
 
 
-def instrumented(text: str, faults: Sequence[Fault], notes: bool = False) -> str:
-    """Return the copy with these mutants, with or without notes."""
+def instrumented(text: str, faults: Sequence[Fault], declared: str = DECLARED, notes: bool = False) -> str:
+    """Return the copy with these mutants, with or without notes.
+
+    Args:
+        declared: declaration of the selection.
+    """
     places: dict[tuple[int, int, bool], list[Fault]] = {}
     for fault in faults:
         places.setdefault((fault.start, fault.end, fault.dropped), []).append(fault)
@@ -52,19 +56,19 @@ def instrumented(text: str, faults: Sequence[Fault], notes: bool = False) -> str
         piece, at = [], start
         for head in heads:
             if start < head <= end:
-                piece += [text[at:head], DECLARED + NOTED * notes]
+                piece += [text[at:head], declared + NOTED * notes]
                 at = head
         return "".join([*piece, text[at:end]])
 
     def wrapped(place: tuple[int, int, bool], inside: str) -> str:
         for fault in places[place]:
-            note = f"{CHOSEN} == {EVERY} && {NOTE}({fault.number}, "
+            every, note = f"{CHOSEN} == {EVERY}", f"{NOTE}({fault.number}) != 0"
             if fault.dropped:
-                executed = f"if ({note}1) != 0) begin end " * notes
+                executed = f"if ({every} && {note}) begin end " * notes
                 inside = f"begin {executed}if ({CHOSEN} != {fault.number}) {inside} end"
             else:
                 new, old = _flat(fault.text), _flat(text[place[0] : place[1]])
-                differs = f" || ({note}int'(({new}) !== ({old}))) != 0)" * notes
+                differs = f" || ({every} && ({new}) !== ({old}) && {note})" * notes
                 inside = f"(({CHOSEN} == {fault.number}{differs}) ? ({new}) : ({inside}))"
         return inside
 

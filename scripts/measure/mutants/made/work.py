@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cocotb_tests.harness.build import locked
@@ -25,7 +25,14 @@ from scripts.measure.mutants.made.suites import Group
 WALL_S = "100"
 """Time limit of one test in s."""
 PROOF = "proof "
-KILLED, ALIVE, ENDLESS, BROKEN = "killed", "alive", "no end", "no build"
+KILLED, EQUAL, ALIVE, ENDLESS, BROKEN = "killed", "equal", "alive", "no end", "no build"
+
+
+@dataclass(frozen=True)
+class Bulk:
+    """Mutants of the same file or folder that are tried together, as pairs of file and number."""
+
+    mutants: tuple[tuple[str, int], ...]
 
 
 @dataclass(frozen=True)
@@ -52,10 +59,20 @@ def digest(file: str) -> str:
     return hashlib.sha256((ROOT / file).read_bytes()).hexdigest()[:12]
 
 
-def copy_of(file: str, notes: bool = False) -> Path:
+def copy_of(file: str) -> Path:
     """Return the path of the copy with all mutants of a file; write the copy if needed."""
     text = (ROOT / file).read_text(encoding="utf-8")
-    copy = instrumented(text, faults(text), notes)
+    return _stored(file, instrumented(text, faults(text)))
+
+
+def noting_copy_of(file: str, first: int) -> Path:
+    """Return the path of a copy with notes, in which `first` is added to the number of each mutant."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    found = [replace(fault, number=first + fault.number) for fault in faults(text)]
+    return _stored(file, instrumented(text, found, notes=True))
+
+
+def _stored(file: str, copy: str) -> Path:
     path = BUILD / "mutants" / hashlib.sha256(copy.encode()).hexdigest()[:12] / Path(file).name
     with locked(path.parent.with_suffix(".lock")):
         if not path.is_file():
