@@ -136,7 +136,8 @@ def main() -> int:
         for instance in [name for name in names if name.partition("$")[0] == job["block"]]:
             begin = ["design -load part", *(command.format(top=instance) for command in READ)]
             passes(*begin, f"write_rtlil {folder}/base.il", *SHAPE)
-            text = re.sub(r"\$\d+|attribute .*", "", (folder / "base.il").read_text(encoding="utf-8"))
+            text = (folder / "base.il").read_text(encoding="utf-8")
+            text = re.sub(r"\$\d+|(attribute|autoidx) .*", "", text)
             if text in known:
                 continue
             known.add(text)
