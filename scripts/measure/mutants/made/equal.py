@@ -65,7 +65,6 @@ def equal(work: Bulk) -> Result:
         job = {
             "top": row.top,
             "block": Path(file).stem,
-            "numbers": sorted(left),
             "folder": relative(folder),
             "sources": [relative(path) for path in files],
             "settings": [params for _, params in settings(row)],

@@ -111,7 +111,7 @@ def _killed(
     with build.locked(packed.with_suffix(".lock")):
         if not packed.is_file():
             packed.write_bytes(_packed(pins, values, recordings))
-    numbers = [files.index(file) * _MANY + number for file, number in mutants]
+    numbers = sorted(files.index(file) * _MANY + number for file, number in mutants)
     command = [program, packed, str(EVERY), str(BUDGET), str(_MANY), *map(str, numbers)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     for line in done.stdout.splitlines():
