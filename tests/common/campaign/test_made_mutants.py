@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from cocotb_tests.harness.compare import new_model
+from cocotb_tests.harness.compare import replay as edges_of
 from cocotb_tests.harness.project import ROOT, ProjectError
-from openppmc.check.records import Edge, Recording
+from openppmc.check.records import Change, Edge, Recording
 from scripts.measure.campaign.jobs import Done
 from scripts.measure.campaign.store import Store
 from scripts.measure.mutants.made import equal, killed, page, replay, work
@@ -86,19 +88,41 @@ def test_recordings_kill_mutants(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     """A recording without inputs kills mutants of the idle level, but not those of a pulse. A recording with
     which the RTL does not agree kills none.
     """
-    monkeypatch.setattr(replay, "folder", lambda: tmp_path)
-    monkeypatch.setattr(replay, "FEWEST", 1)
-    params: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}
-    right = Recording("ppmc104", params, end=100)
+    right = Recording("ppmc104", PARAMS, end=100)
     wrong = replace(right, end=90, edges=[Edge(50, "pout_n", 0)])
-    for name, recording in (("right", right), ("wrong", wrong)):
-        (tmp_path / f"{name}.json").write_text(recording.to_json(), encoding="ascii")
-    file = "rtl/motion/ppmc_pulse_shaper.sv"
+    found = _replayed(monkeypatch, tmp_path, "rtl/motion/ppmc_pulse_shaper.sv", right=right, wrong=wrong)
+    assert set(found.values()) == {"recording right"}
+    assert 0 < len(found) < len(of_file("rtl/motion/ppmc_pulse_shaper.sv")) // 2
+
+
+def test_a_mutant_that_differs_late(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A mutant that first differs from the RTL at a read, long after the reset, is killed."""
+    file = "rtl/host/ppmc_strobe_bus.sv"
+    write = [(30, "cs_n", 0), (30, "wr_n", 0), (30, "d_i", 0xF9), (40, "wr_n", 1), (40, "cs_n", 1)]
+    read = [(50, "cs_n", 0), (50, "rd_n", 0), (50, "a0", 1), (60, "rd_n", 1), (60, "cs_n", 1)]
+    recording = Recording("ppmc104", PARAMS, end=100, stimulus=[Change(*row) for row in write + read])
+    recording.edges = edges_of(recording, new_model("ppmc104", PARAMS))
+    found = _replayed(monkeypatch, tmp_path, file, read=recording)
+    here = [one for one in of_file(file) if "d_o <= a0_i" in page.lines(file)[one.line - 1]]
+    assert {"never", "condition inverted"} <= {one.what for one in here if f"{file} {one.number}" in found}
+
+
+PARAMS: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}
+
+
+def _replayed(
+    monkeypatch: pytest.MonkeyPatch, folder: Path, file: str, **recordings: Recording
+) -> dict[str, str]:
+    """Replay the recordings into all mutants of a file; return the killed mutants."""
+    monkeypatch.setattr(replay, "folder", lambda: folder)
+    monkeypatch.setattr(replay, "FEWEST", 1)
+    for name, recording in recordings.items():
+        (folder / f"{name}.json").write_text(recording.to_json(), encoding="ascii")
     replay.designs.cache_clear()
     done = replay.replayed(Bulk(tuple((file, fault.number) for fault in of_file(file))))
     replay.designs.cache_clear()
-    assert set(done.data["found"].values()) == {"recording right"}
-    assert 0 < len(done.data["found"]) < len(of_file(file)) // 2
+    found: dict[str, str] = done.data["found"]
+    return found
 
 
 def test_equal_mutants(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Main program that replays recordings of tests into the mutants of a design:
-//     Vtop RECORDINGS EVERY BUDGET FILES MUTANT ...
-// FILES is the number of mutants by which the numbers of two files differ. It first replays each recording without a
-// mutant, and notes the mutants that have another value than the RTL; only these mutants are tried with this recording.
-// Of each file, the recordings are tried first that note the most of its mutants in the fewest cycles. For each mutant
-// in which an output differs within BUDGET cycles, the program prints its number, and the number of the recording.
-// replay.py writes the file of recordings, which consists of 64-bit words and names.
+//     Vtop RECORDINGS EVERY BUDGET MUTANT ...
+// A model without a mutant replays each recording and notes the mutants that have another value than the RTL. A mutant
+// is simulated only from the block of cycles in which it is noted until its registers are those of the RTL again, for
+// at most BUDGET cycles in all, and less while nothing new happens. If an output differs, the mutant alone replays the
+// whole recording, to be sure. For each mutant that differs, the program prints its number, and the number of the
+// recording. replay.py writes the file of recordings, which consists of 64-bit words and names.
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <list>
 #include <map>
+#include <memory>
+#include <new>
+#include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "Vtop.h"
+#include "Vtop___024root.h"
 #include "verilated.h"
 #include "verilated_syms.h"
 
@@ -36,26 +43,31 @@ struct Recording {
     Word number, end;
     std::vector<Word> levels;  // of all words of all ports at the start
     std::vector<Row> inputs, outputs;
-    std::vector<char> noted;  // by number of the mutant: whether it has another value than the RTL
 };
 
-constexpr double START = 1'000;  // the start of a replay takes as long as this number of cycles
+constexpr Word RESET = 6;       // number of steps before the first cycle of a recording
+constexpr Word BLOCK = 16;      // number of steps of a block
+constexpr int TRIALS = 4;       // number of blocks with a step of the same kind in which a mutant is simulated in vain
+constexpr int PATIENCE = 4096;  // number of successive blocks without a new kind of step in which it may go on
+constexpr std::size_t SIZE = offsetof(Vtop___024root, vlSymsp);  // of all variables, in bytes
 
 std::vector<std::string> ports;  // clk, rst_n, the other inputs, the outputs
 Word inputs = 0;                 // number of words of the inputs
-std::list<Recording> recordings;
+std::vector<Recording> recordings;
 std::vector<char> noted;
+
+Word word_at(const char* place) {
+    Word value;
+    std::memcpy(&value, place, 8);
+    return value;
+}
 
 class Reader {
   public:
     explicit Reader(const char* path)
         : file_(path, std::ios::binary), data_(std::istreambuf_iterator<char>(file_), {}) {}
     bool more() const { return at_ < data_.size(); }
-    Word word() {
-        Word value;
-        std::memcpy(&value, &data_.at((at_ += 8) - 1) - 7, 8);
-        return value;
-    }
+    Word word() { return word_at(&data_.at((at_ += 8) - 1) - 7); }
     std::string text(Word size) { return {&data_[(at_ += size) - size], size}; }
     std::vector<Row> rows() {
         std::vector<Row> found(word());
@@ -79,7 +91,7 @@ void read(const char* path) {
         words += count;
     }
     while (reader.more()) {
-        Recording recording{reader.word(), reader.word(), std::vector<Word>(words), {}, {}, {}};
+        Recording recording{reader.word(), reader.word(), std::vector<Word>(words), {}, {}};
         for (Word& level : recording.levels) level = reader.word();
         recording.inputs = reader.rows();
         recording.outputs = reader.rows();
@@ -87,102 +99,252 @@ void read(const char* path) {
     }
 }
 
-// Return whether an output differs from the recording.
-bool differs(const Recording& recording, const std::string& mutant) {
-    const std::string chosen = "+mutant=" + mutant;
-    const char* words[] = {"replay", chosen.c_str()};
-    VerilatedContext context;
-    context.commandArgs(2, words);
-    context.randReset(2);
-    context.randSeed(1);
-    context.assertOn(false);
-    Vtop top{&context, ""};
+// A place in a recording: the next step, what was not yet applied or expected, and the expected levels.
+struct Cursor {
+    const Recording* recording;
+    Word step, quiet;
+    std::vector<Row>::const_iterator input, output;
+    std::vector<Word> expected;
+
+    explicit Cursor(const Recording& from)
+        : recording(&from), step(0), quiet(0), input(from.inputs.begin()), output(from.outputs.begin()),
+          expected(from.levels) {}
+    bool more() const { return step <= recording->end + RESET; }
+};
+
+class Model {
+  public:
+    explicit Model(int mutant) : chosen_("+mutant=" + std::to_string(mutant)) {
+        const char* words[] = {"replay", chosen_.c_str()};
+        context_.commandArgs(2, words);
+        context_.threads(1);
+        context_.randReset(2);
+        context_.randSeed(1);
+        context_.assertOn(false);
+        top_ = std::make_unique<Vtop>(&context_, "");
+        for (const std::string& port : ports) {
+            const VerilatedVar* const var = context_.scopeFind("TOP")->varFind(port.c_str());
+            for (std::size_t at = 0; at < var->entSize(); at += 8)
+                places_.push_back(
+                    {static_cast<char*>(var->datap()) + at, std::min<std::size_t>(8, var->entSize() - at)});
+        }
+    }
+
+    ~Model() { Verilated::threadContextp(&context_); }  // of the scopes
+
+    // Simulate up to `steps` steps; return false in the first in which an output differs.
+    bool run(Cursor& at, Word steps) {
+        Verilated::threadContextp(&context_);  // of the arguments
+        for (const Word last = at.step + steps; at.step < last && at.more(); ++at.step)
+            if (!(at.step < RESET ? reset(at) : cycle(at, at.step - RESET))) return false;
+        return true;
+    }
+
+    // Select the mutant, which the first step does.
+    void select(const Recording& recording) {
+        Cursor at(recording);
+        try {
+            run(at, 1);
+        } catch (const std::runtime_error&) {
+            // The levels do not become stable, as in the next step.
+        }
+    }
+
+    char* state() { return reinterpret_cast<char*>(top_->rootp); }
+
+  private:
     struct Place {
         char* data;
         std::size_t bytes;
     };
-    std::vector<Place> places;
-    for (const std::string& port : ports) {
-        const VerilatedVar* const var = context.scopeFind("TOP")->varFind(port.c_str());
-        for (std::size_t at = 0; at < var->entSize(); at += 8)
-            places.push_back({static_cast<char*>(var->datap()) + at, std::min<std::size_t>(8, var->entSize() - at)});
-    }
-    const auto put = [&](Word word, Word level) { std::memcpy(places[word].data, &level, places[word].bytes); };
-    const auto edge = [&] {
-        put(0, 1);
-        top.eval();
-        put(0, 0);
-    };
-    auto input = recording.inputs.begin();
-    std::vector<Word> expected = recording.levels;
-    for (Word word = 2; word < inputs; ++word) put(word, expected[word]);
-    for (; input != recording.inputs.end() && input->t == 0; ++input) put(input->port, input->level);
-    put(0, 0);
-    put(1, 1);
-    top.eval();
-    put(1, 0);
-    top.eval();
-    for (int cycle = 0; cycle < 4; ++cycle) {
-        edge();
-        top.eval();
-    }
-    put(1, 1);
-    auto output = recording.outputs.begin();
-    Word quiet = 0;  // an asynchronous reset may act one cycle earlier or later
-    for (Word t = 0; t <= recording.end; ++t) {
-        for (; input != recording.inputs.end() && input->t == t; ++input) {
-            if (input->port == 1) quiet = t + 2;
-            put(input->port, input->level);
-        }
-        top.eval();
-        edge();
-        for (; output != recording.outputs.end() && output->t == t; ++output) expected[output->port] = output->level;
-        if (t < quiet) continue;
-        for (Word word = inputs; word < places.size(); ++word) {
-            Word level = 0;
-            std::memcpy(&level, places[word].data, places[word].bytes);
-            if (level != expected[word]) return true;
-        }
-    }
-    return false;
-}
 
-// Like differs, but in a copy of this process, because a mutant whose levels do not become stable aborts the process. Its
-// tests show whether they fail.
-bool differs_safely(const Recording& recording, const std::string& mutant) {
+    void put(Word word, Word level) { std::memcpy(places_[word].data, &level, places_[word].bytes); }
+
+    void edge() {
+        put(0, 1);
+        top_->eval();
+        put(0, 0);
+    }
+
+    bool reset(Cursor& at) {
+        if (at.step == 0) {
+            for (Word word = 2; word < inputs; ++word) put(word, at.expected[word]);
+            for (; at.input != at.recording->inputs.end() && at.input->t == 0; ++at.input)
+                put(at.input->port, at.input->level);
+            put(0, 0);
+            put(1, 1);
+        } else if (at.step == 1) {
+            put(1, 0);
+        } else {
+            edge();
+        }
+        top_->eval();
+        if (at.step == RESET - 1) put(1, 1);
+        return true;
+    }
+
+    bool cycle(Cursor& at, Word t) {
+        for (; at.input != at.recording->inputs.end() && at.input->t == t; ++at.input) {
+            if (at.input->port == 1) at.quiet = t + 2;  // an asynchronous reset may act one cycle earlier or later
+            put(at.input->port, at.input->level);
+        }
+        top_->eval();
+        edge();
+        for (; at.output != at.recording->outputs.end() && at.output->t == t; ++at.output)
+            at.expected[at.output->port] = at.output->level;
+        if (t < at.quiet) return true;
+        for (Word word = inputs; word < places_.size(); ++word) {
+            Word level = 0;
+            std::memcpy(&level, places_[word].data, places_[word].bytes);
+            if (level != at.expected[word]) return false;
+        }
+        return true;
+    }
+
+    std::string chosen_;
+    VerilatedContext context_;
+    std::unique_ptr<Vtop> top_;
+    std::vector<Place> places_;
+};
+
+using Ranges = std::vector<std::pair<std::size_t, std::size_t>>;
+
+// The layout of a model: bytes that two models may have in common, and bytes of registers.
+class Layout {
+  public:
+    // Read the size of all variables from the standard input, then place and size of each register.
+    explicit Layout(int every) {
+        Model one(every), other(-every - 1);
+        for (Model* const model : {&one, &other}) {
+            Cursor at(recordings.front());
+            model->run(at, recordings.front().end);
+        }
+        for (std::size_t at = 0; at < SIZE; ++at) {
+            if (one.state()[at] != other.state()[at]) continue;  // the number of the mutant
+            if (common_.empty() || common_.back().second != at) common_.push_back({at, at});
+            ++common_.back().second;
+        }
+        std::size_t end, first, size;
+        if (!(std::cin >> end) || end != SIZE) std::abort();
+        while (std::cin >> first >> size) registers_.push_back({first, first + size});
+    }
+    void copy(char* to, const char* from) const {
+        for (const auto& [first, end] : common_) std::memcpy(to + first, from + first, end - first);
+    }
+    bool same_registers(const char* left, const char* right) const {
+        return std::all_of(registers_.begin(), registers_.end(), [&](const auto& range) {
+            return !std::memcmp(left + range.first, right + range.first, range.second - range.first);
+        });
+    }
+
+  private:
+    Ranges common_, registers_;
+};
+
+// The kinds of steps of the RTL: a kind is a set of the bytes that change.
+class Kinds {
+  public:
+    void begin(const char* state) { std::memcpy(last_.data(), state, SIZE); }
+    // Return the number of the kind of the step that led to this state.
+    std::size_t of(const char* state) {
+        Word hash = 0;
+        for (std::size_t n = 0; n < SIZE / 8; ++n) {
+            const Word now = word_at(state + 8 * n);
+            for (Word at = n * 8, left = now ^ last_[n]; left != 0; ++at, left >>= 8)
+                if (left & 0xFF) hash = (hash ^ at) * 0x9E37'79B9'7F4A'7C15, hash ^= hash >> 29;
+            last_[n] = now;
+        }
+        return known_.emplace(hash, known_.size()).first->second;
+    }
+
+  private:
+    std::vector<Word> last_ = std::vector<Word>(SIZE / 8);
+    std::unordered_map<Word, std::size_t> known_;
+};
+
+struct Mutant {
+    Word left;                     // number of cycles for which it may still be simulated
+    std::unique_ptr<Model> model;  // after it was first noted
+    std::vector<char> futile;      // number of blocks with a step of this kind in which no output differed
+    int bored;                     // number of successive blocks in which nothing new happened
+
+    bool knows(const std::vector<std::size_t>& kinds) const {
+        return std::all_of(kinds.begin(), kinds.end(),
+                           [&](std::size_t kind) { return kind < futile.size() && futile[kind] >= TRIALS; });
+    }
+    void learn(const std::vector<std::size_t>& kinds) {
+        bored = knows(kinds) ? bored + 1 : 0;
+        futile.resize(std::max(futile.size(), *std::max_element(kinds.begin(), kinds.end()) + 1));
+        for (const std::size_t kind : kinds) futile[kind] = static_cast<char>(std::min(futile[kind] + 1, TRIALS));
+    }
+};
+
+// Return whether the mutant alone differs from the recording.
+bool differs(const Recording& recording, int number) {
     const pid_t copy = fork();
-    if (copy == 0) _exit(differs(recording, mutant));
+    if (copy == 0) {
+        Cursor at(recording);
+        _exit(!Model(number).run(at, recording.end + RESET + 1));
+    }
     int status = 0;
     if (copy < 0 || waitpid(copy, &status, 0) != copy) std::abort();
     return WIFEXITED(status) && WEXITSTATUS(status) == 1;
 }
 
-// Return the recordings in the order in which they are tried for the mutants [first, last) of a file. Each round of
-// the order consists of few and short recordings that note all these mutants.
-std::list<const Recording*> order(int first, int last) {
-    std::list<const Recording*> found;
-    std::vector<const Recording*> left;
-    for (const Recording& recording : recordings) left.push_back(&recording);
-    std::vector<char> wanted(last - first, true);
-    const auto value = [&](const Recording* recording) {
-        int count = 0;
-        for (int n = first; n < last; ++n) count += wanted[n - first] && recording->noted[n];
-        return count / (START + static_cast<double>(recording->end));
-    };
-    while (!left.empty()) {
-        std::vector<double> values;
-        for (const Recording* recording : left) values.push_back(value(recording));
-        const auto best = std::max_element(values.begin(), values.end());
-        if (*best > 0) {
-            const auto at = left.begin() + (best - values.begin());
-            found.push_back(*at);
-            for (int n = first; n < last; ++n)
-                if ((*at)->noted[n]) wanted[n - first] = false;
-            left.erase(at);
-        } else if (std::find(wanted.begin(), wanted.end(), false) != wanted.end()) {
-            wanted.assign(wanted.size(), true);
-        } else {
-            break;
+// Return the mutants that differ from the recording; none if the RTL differs, too. A mutant whose levels do not become
+// stable is removed from the mutants.
+std::vector<int> killed(const Recording& recording, int every, const Layout& layout, Kinds& all_kinds,
+                        std::map<int, Mutant>& mutants) {
+    std::vector<int> found;
+    std::list<int> alive;
+    std::vector<char> before(SIZE), tried(noted.size(), false);
+    Model rtl(every);
+    Cursor at(recording);
+    rtl.run(at, 1);
+    all_kinds.begin(rtl.state());
+    while (at.more()) {
+        const Cursor first = at;
+        std::memcpy(before.data(), rtl.state(), SIZE);
+        std::fill(noted.begin(), noted.end(), false);
+        std::vector<std::size_t> kinds;
+        for (Word step = 0; step < BLOCK; ++step) {
+            if (!rtl.run(at, 1)) return {};
+            const std::size_t kind = all_kinds.of(rtl.state());
+            if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
+        }
+        for (auto& [number, mutant] : mutants) {
+            if (!noted[number] || tried[number] || mutant.left < BLOCK || mutant.knows(kinds)) continue;
+            if (!mutant.model) {
+                mutant.model = std::make_unique<Model>(number);
+                mutant.model->select(recording);
+            }
+            layout.copy(mutant.model->state(), before.data());
+            alive.push_back(number);
+            tried[number] = true;
+            mutant.bored = 0;
+        }
+        for (auto one = alive.begin(); one != alive.end();) {
+            const auto now = one++;
+            Mutant& mutant = mutants.at(*now);
+            Cursor mine = first;
+            bool agrees = false;
+            try {
+                agrees = mutant.model->run(mine, BLOCK);
+            } catch (const std::runtime_error&) {
+                mutants.erase(*now);
+                alive.erase(now);
+                continue;
+            }
+            mutant.left -= std::min(mutant.left, BLOCK);
+            if (agrees) {
+                mutant.learn(kinds);
+                tried[*now] = mutant.bored < PATIENCE && mutant.left >= BLOCK &&
+                              !layout.same_registers(mutant.model->state(), rtl.state());
+                if (tried[*now]) continue;
+            } else {
+                found.push_back(*now);
+            }
+            alive.erase(now);
         }
     }
     return found;
@@ -191,38 +353,37 @@ std::list<const Recording*> order(int first, int last) {
 }  // namespace
 
 // The design calls this function.
-extern "C" int openppmc_note(int number) {
-    noted[number] = true;
+int openppmc_note(int number);
+int openppmc_note(int number) {
+    if (static_cast<std::size_t>(number) < noted.size()) noted[number] = true;
     return 0;
 }
 
+// The states of two models are compared, so the gaps between their variables must be equal.
+void* operator new(std::size_t size, std::align_val_t align) {
+    const std::size_t step = static_cast<std::size_t>(align);
+    void* const found = std::aligned_alloc(step, (size + step - 1) / step * step);
+    if (!found) throw std::bad_alloc();
+    return std::memset(found, 0, size);
+}
+
+// Verilator calls this function if levels do not become stable.
+void vl_fatal(const char*, int, const char*, const char* message) { throw std::runtime_error(message); }
+
 int main(int argc, char** argv) {
     read(argv[1]);
-    const int files = std::stoi(argv[4]), end = (std::stoi(argv[argc - 1]) / files + 1) * files;
-    for (auto at = recordings.begin(); at != recordings.end();) {
-        const auto now = at++;
-        noted.assign(end, false);
-        // The replay cannot repeat every test, for example one that changes rst_n between two edges.
-        if (differs(*now, argv[2]))
-            recordings.erase(now);
-        else
-            now->noted.swap(noted);
-    }
-    std::map<int, std::list<const Recording*>> orders;
-    for (int n = 5; n < argc; ++n) {
-        const int mutant = std::stoi(argv[n]), file = mutant / files * files;
-        if (!orders.count(file)) orders[file] = order(file, file + files);
-        auto& mine = orders[file];
-        Word left = std::stoull(argv[3]);
-        for (auto at = mine.begin(); at != mine.end(); ++at) {
-            if (!(*at)->noted[mutant] || left < (*at)->end) continue;
-            left -= (*at)->end;
-            if (!differs_safely(**at, argv[n])) continue;
-            std::printf("%d %llu\n", mutant, static_cast<unsigned long long>((*at)->number));
+    const int every = std::stoi(argv[2]);
+    std::map<int, Mutant> mutants;
+    for (int n = 4; n < argc; ++n) mutants[std::stoi(argv[n])].left = std::stoull(argv[3]);
+    noted.assign(mutants.rbegin()->first + 1, false);
+    const Layout layout(every);
+    Kinds kinds;
+    for (const Recording& recording : recordings) {
+        for (const int number : killed(recording, every, layout, kinds, mutants)) {
+            if (!differs(recording, number)) continue;
+            mutants.erase(number);
+            std::printf("%d %llu\n", number, static_cast<unsigned long long>(recording.number));
             std::fflush(stdout);
-            // The next mutant of the file is probably found by the same recording.
-            mine.splice(mine.begin(), mine, at);
-            break;
         }
     }
 }

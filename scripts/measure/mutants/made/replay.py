@@ -28,14 +28,17 @@ from openppmc.check.records import Recording
 from scripts.measure.campaign.jobs import Result
 from scripts.measure.campaign.tree import SIMULATED, tree
 from scripts.measure.coverage.work import pytest
+from scripts.measure.mutants.made.layout import registers
 from scripts.measure.mutants.made.schema import EVERY
 from scripts.measure.mutants.made.work import Bulk, noting_copy_of
 
-LONGEST, BUDGET = 500_000, 3_000_000
-"""Maximum numbers of cycles: of a recording, and of those replayed into one mutant of a design."""
+BUDGET, LONG = 6_000_000, 300_000
+"""Numbers of cycles: for which one mutant of a design is simulated at most; of a very long recording."""
 FEWEST = 50
 """Minimum number of recordings of a design, because the design is built for each folder."""
 _WORD = 64
+ARGS = ("-Wno-SIDEEFFECT", "--no-assert", "--flatten", "-fno-lift-expr", "-CFLAGS", "-DVL_USER_FATAL -O2")
+"""Arguments of Verilator. A lifted expression would be evaluated outside its condition, and slowly."""
 _MANY = 1_000
 """Maximum number of mutants of a file."""
 
@@ -62,16 +65,16 @@ def record(workers: int) -> None:
 
 @cache
 def designs() -> dict[tuple[str, str], list[Path]]:
-    """Return the recordings of each design (part and parameters), the shortest first.
+    """Return the recordings of each design (part and parameters), the very long ones last.
 
-    The design with most recordings is first.
+    The others have a pseudo-random order, so that the first ones are of different kinds. The design with most
+    recordings is first.
     """
-    found: dict[tuple[str, str], list[tuple[int, Path]]] = {}
+    found: dict[tuple[str, str], list[tuple[bool, Path]]] = {}
     for path in folder().glob("*.json"):
         recording = json.loads(path.read_text(encoding="ascii"))
         design = recording["part"], json.dumps(recording["params"])
-        if recording["end"] <= LONGEST:
-            found.setdefault(design, []).append((recording["end"], path))
+        found.setdefault(design, []).append((recording["end"] > LONG, path))
     kept = {
         design: [path for _, path in sorted(rows)] for design, rows in found.items() if len(rows) >= FEWEST
     }
@@ -94,29 +97,36 @@ def _killed(
 ) -> Iterator[tuple[str, str]]:
     """Yield each mutant that the recordings of one design kill, and the digest of the recording."""
     row, values = rtl_part(part), json.loads(params)
-    pins = recorded(part, values)
-    files = sorted({file for file, _ in mutants})
-    copies = {ROOT / file: noting_copy_of(file, place * _MANY) for place, file in enumerate(files)}
+    pins, every = recorded(part, values), sources(rtl_part(part))
+    files: dict[str, set[int]] = {}
+    for file, number in sorted(mutants):
+        files.setdefault(file, set()).add(number)
+    copies = {
+        ROOT / file: noting_copy_of(file, numbers, place * _MANY)
+        for place, (file, numbers) in enumerate(files.items())
+    }
     design = build.Design(
         row.top,
-        [copies.get(path, path) for path in sources(row)],
+        [copies.get(path, path) for path in every],
         include_dirs(),
         values,
-        (*MUTANT_WARNINGS, "-Wno-SIDEEFFECT", "--no-assert"),
+        (*MUTANT_WARNINGS, *ARGS),
         ("clk", "rst_n", *pins.inputs, *pins.watched),
         main=str(Path(__file__).with_suffix(".cpp")),
     )
-    program = build.build(design) / row.top
+    built = build.build(design)
+    header = (built / "Vtop___024root.h").read_text(encoding="utf-8")
+    places = " ".join(map(str, registers(header, [path.read_text(encoding="utf-8") for path in every])))
     packed = folder() / f"{hashlib.sha256(f'{part} {params}'.encode()).hexdigest()[:12]}.bin"
     with build.locked(packed.with_suffix(".lock")):
         if not packed.is_file():
             packed.write_bytes(_packed(pins, values, recordings))
-    numbers = sorted(files.index(file) * _MANY + number for file, number in mutants)
-    command = [program, packed, str(EVERY), str(BUDGET), str(_MANY), *map(str, numbers)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    chosen = [str(place * _MANY + n) for place, numbers in enumerate(files.values()) for n in sorted(numbers)]
+    command = [built / row.top, packed, str(EVERY), str(BUDGET), *chosen]
+    done = subprocess.run(command, input=places, stdout=subprocess.PIPE, text=True, check=True)
     for line in done.stdout.splitlines():
         number, place = map(int, line.split())
-        yield f"{files[number // _MANY]} {number % _MANY}", recordings[place].stem
+        yield f"{list(files)[number // _MANY]} {number % _MANY}", recordings[place].stem
 
 
 def _packed(pins: Part, params: Mapping[str, object], recordings: Sequence[Path]) -> bytes:

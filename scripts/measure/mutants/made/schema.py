@@ -3,7 +3,7 @@
 The argument +mutant=N selects a mutant when the simulation starts; 0 selects none. Thus, a design is compiled
 only once for all mutants of a file. Line numbers do not change.
 
-In a copy with notes, +mutant=EVERY selects none either, but calls the function NOTE with the number of each
+In a copy with notes, +mutant=EVERY selects none either, but calls openppmc_note with the number of each
 mutant whose expression has another value than the RTL, or whose removed statement is executed.
 """
 
@@ -17,8 +17,7 @@ from scripts.measure.syntax import found, span, tree
 CHOSEN = "openppmc_mutant"
 DECLARED = f' int {CHOSEN} = 0; initial if (!$value$plusargs("mutant=%d", {CHOSEN})) {CHOSEN} = 0;'
 EVERY = 99_999
-NOTE = "openppmc_note"
-NOTED = f' import "DPI-C" function int {NOTE}(input int number);'
+NOTE = '$c32("[] {{ extern int openppmc_note(int); return openppmc_note({}); }}()") != 0'
 
 
 def _heads(text: str) -> list[int]:
@@ -56,13 +55,13 @@ def instrumented(text: str, faults: Sequence[Fault], declared: str = DECLARED, n
         piece, at = [], start
         for head in heads:
             if start < head <= end:
-                piece += [text[at:head], declared + NOTED * notes]
+                piece += [text[at:head], declared]
                 at = head
         return "".join([*piece, text[at:end]])
 
     def wrapped(place: tuple[int, int, bool], inside: str) -> str:
         for fault in places[place]:
-            every, note = f"{CHOSEN} == {EVERY}", f"{NOTE}({fault.number}) != 0"
+            every, note = f"{CHOSEN} == {EVERY}", NOTE.format(fault.number)
             if fault.dropped:
                 executed = f"if ({every} && {note}) begin end " * notes
                 inside = f"begin {executed}if ({CHOSEN} != {fault.number}) {inside} end"

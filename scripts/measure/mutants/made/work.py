@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -65,10 +65,10 @@ def copy_of(file: str) -> Path:
     return _stored(file, instrumented(text, faults(text)))
 
 
-def noting_copy_of(file: str, first: int) -> Path:
-    """Return the path of a copy with notes, in which `first` is added to the number of each mutant."""
+def noting_copy_of(file: str, numbers: Container[int], first: int) -> Path:
+    """Return the path of a copy with these mutants and notes; `first` is added to their numbers."""
     text = (ROOT / file).read_text(encoding="utf-8")
-    found = [replace(fault, number=first + fault.number) for fault in faults(text)]
+    found = [replace(fault, number=first + fault.number) for fault in faults(text) if fault.number in numbers]
     return _stored(file, instrumented(text, found, notes=True))
 
 
