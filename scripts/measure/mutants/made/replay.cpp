@@ -48,7 +48,7 @@ struct Recording {
 constexpr Word RESET = 6;       // number of steps before the first cycle of a recording
 constexpr Word BLOCK = 16;      // number of steps of a block
 constexpr int TRIALS = 4;       // number of blocks with a step of the same kind in which a mutant is simulated in vain
-constexpr int PATIENCE = 4096;  // number of successive blocks without a new kind of step in which it may go on
+constexpr int PATIENCE = 1024;  // number of successive blocks without a new kind of step in which it may go on
 constexpr std::size_t SIZE = offsetof(Vtop___024root, vlSymsp);  // of all variables, in bytes
 
 std::vector<std::string> ports;  // clk, rst_n, the other inputs, the outputs
