@@ -36,9 +36,9 @@ BUDGET, LONG = 6_000_000, 300_000
 """Numbers of cycles: for which one mutant of a design is simulated at most; of a very long recording."""
 FEWEST = 50
 """Minimum number of recordings of a design, because the design is built for each folder."""
-_WORD = 64
 ARGS = ("-Wno-SIDEEFFECT", "--no-assert", "--flatten", "-fno-lift-expr", "-CFLAGS", "-DVL_USER_FATAL -O2")
 """Arguments of Verilator. A lifted expression would be evaluated outside its condition, and slowly."""
+_WORD = 64
 _MANY = 1_000
 """Maximum number of mutants of a file."""
 
