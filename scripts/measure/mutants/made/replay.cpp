@@ -21,7 +21,6 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -140,7 +139,7 @@ class Model {
         return true;
     }
 
-    // Select the mutant, which the first step does.
+    // Run the initial blocks, which also select the mutant, before a state is copied.
     void select(const Recording& recording) {
         Cursor at(recording);
         try {
@@ -357,14 +356,6 @@ int openppmc_note(int number);
 int openppmc_note(int number) {
     if (static_cast<std::size_t>(number) < noted.size()) noted[number] = true;
     return 0;
-}
-
-// The states of two models are compared, so the gaps between their variables must be equal.
-void* operator new(std::size_t size, std::align_val_t align) {
-    const std::size_t step = static_cast<std::size_t>(align);
-    void* const found = std::aligned_alloc(step, (size + step - 1) / step * step);
-    if (!found) throw std::bad_alloc();
-    return std::memset(found, 0, size);
 }
 
 // Verilator calls this function if levels do not become stable.
