@@ -95,6 +95,13 @@ def test_recordings_kill_mutants(monkeypatch: pytest.MonkeyPatch, tmp_path: Path
     assert 0 < len(found) < len(of_file("rtl/motion/ppmc_pulse_shaper.sv")) // 2
 
 
+def test_power_up_differs_between_recordings(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Registers have other random values at power-up in each recording, also if the recordings are equal."""
+    copies = {f"copy{n}": Recording("ppmc104", PARAMS, end=100) for n in range(20)}
+    found = _replayed(monkeypatch, tmp_path, "rtl/motion/ppmc_hold_timer.sv", **copies)
+    assert len(set(found.values())) > 1
+
+
 def test_a_mutant_that_differs_late(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """A mutant that first differs from the RTL at a read, long after the reset, is killed."""
     file = "rtl/host/ppmc_strobe_bus.sv"
@@ -113,8 +120,9 @@ PARAMS: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMIN
 def _replayed(
     monkeypatch: pytest.MonkeyPatch, folder: Path, file: str, **recordings: Recording
 ) -> dict[str, str]:
-    """Replay the recordings into all mutants of a file; return the killed mutants."""
+    """Replay the recordings into all mutants of a file; return the killed mutants, which must be stored."""
     monkeypatch.setattr(replay, "folder", lambda: folder)
+    monkeypatch.setattr(killed, "Store", lambda: Store(folder / "results.sqlite"))
     monkeypatch.setattr(replay, "FEWEST", 1)
     for name, recording in recordings.items():
         (folder / f"{name}.json").write_text(recording.to_json(), encoding="ascii")
@@ -122,6 +130,8 @@ def _replayed(
     done = replay.replayed(Bulk(tuple((file, fault.number) for fault in of_file(file))))
     replay.designs.cache_clear()
     found: dict[str, str] = done.data["found"]
+    with Store(folder / "results.sqlite") as store:
+        assert set(killed.known(store)) == set(found)
     return found
 
 

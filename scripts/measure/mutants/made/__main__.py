@@ -47,12 +47,10 @@ def in_bulk(chosen: Sequence[tuple[str, Fault]], workers: Workers) -> None:
         if jobs and verdict == KILLED:
             replay.record(workers.count)
         todo = [Job(key, Bulk(tuple(mutants))) for key, mutants in jobs.items()]
-        with Store() as store:
-            for one in run(Campaign(name, function, todo, len(todo), "files"), workers):
-                for mutant, test in one.data.get("found", {}).items():
-                    data = {"verdict": verdict, "test": test, "file": digest(mutant.split(" ")[0])}
-                    store.note(NAME, tree(SIMULATED), Done(mutant, True, data, 0.0))
-                killed.save()
+        for one in run(Campaign(name, function, todo, len(todo), "files"), workers):
+            for mutant, test in one.data.get("found", {}).items():
+                killed.note(mutant, verdict, test)
+            killed.save()
 
 
 def on_file(keys: Container[str]) -> list[Done]:

@@ -36,6 +36,8 @@ LIMIT = 5
 """Time limit of one of the methods of a proof in s."""
 COMPARED = re.compile(rf"connect \\A \\{CHOSEN}\n *connect \\B (\d+)\n")
 """In the text of a design, a mutant that it contains."""
+FRAMES = 20
+"""Number of cycles of the search for a difference, which precedes a proof because it is faster."""
 STATES = ("-zero", "-one", "-random 7")
 RAM = "ppmc_ram$"
 CLOCK, RESET_N = ("clk_i", "clk"), ("rst_ni", "rst_n")
@@ -119,6 +121,8 @@ def main() -> int:
         copies = [f"design -copy-from {block} -as {block} {block}" for block in ("rtl", "mutant")]
         passes("design -reset", *copies, f"read_verilog -formal {folder}/pair.sv", *MITER, *GATES)
         passes(f"write_aiger -I -B -zinit -no-startoffset {folder}/prove.aig")
+        if engine.hits(engine.ask(folder, "prove", f"bmc3 -F {FRAMES} -T {LIMIT}")):
+            return False
         return "Networks are equivalent." in engine.ask(folder, "prove", f"orpos; dprove -j -T {LIMIT}")
 
     unequal: set[int] = set()

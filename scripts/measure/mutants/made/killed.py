@@ -9,6 +9,7 @@ from itertools import groupby
 from cocotb_tests.harness.project import DOCS
 from scripts.measure.campaign.jobs import Done
 from scripts.measure.campaign.store import Store
+from scripts.measure.campaign.tree import SIMULATED, tree
 from scripts.measure.mutants.made.chosen import rtl_files
 from scripts.measure.mutants.made.work import EQUAL, KILLED, PROOF, digest
 
@@ -29,6 +30,13 @@ def known(store: Store) -> dict[str, tuple[str, Done]]:
         for stamp, done in store.all(NAME)
         if done.data.get("verdict") in (KILLED, EQUAL) and done.data["file"] == digest(done.key.split(" ")[0])
     }
+
+
+def note(mutant: str, verdict: str, test: str) -> None:
+    """Store that a mutant is killed by this test, or that it is equal to the RTL."""
+    data = {"verdict": verdict, "test": test, "file": digest(mutant.split(" ")[0])}
+    with Store() as store:
+        store.note(NAME, tree(SIMULATED), Done(mutant, True, data, 0.0))
 
 
 def load() -> None:

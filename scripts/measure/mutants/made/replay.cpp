@@ -113,12 +113,13 @@ struct Cursor {
 
 class Model {
   public:
-    explicit Model(int mutant) : chosen_("+mutant=" + std::to_string(mutant)) {
+    // The registers have random values at power-up, others in each recording.
+    Model(int mutant, const Recording& recording) : chosen_("+mutant=" + std::to_string(mutant)) {
         const char* words[] = {"replay", chosen_.c_str()};
         context_.commandArgs(2, words);
         context_.threads(1);
         context_.randReset(2);
-        context_.randSeed(1);
+        context_.randSeed(static_cast<int>(recording.number + 1));
         context_.assertOn(false);
         top_ = std::make_unique<Vtop>(&context_, "");
         for (const std::string& port : ports) {
@@ -213,7 +214,7 @@ class Layout {
   public:
     // Read the size of all variables from the standard input, then place and size of each register.
     explicit Layout(int every) {
-        Model one(every), other(-every - 1);
+        Model one(every, recordings.front()), other(-every - 1, recordings.front());
         for (Model* const model : {&one, &other}) {
             Cursor at(recordings.front());
             model->run(at, recordings.front().end);
@@ -283,7 +284,7 @@ bool differs(const Recording& recording, int number) {
     const pid_t copy = fork();
     if (copy == 0) {
         Cursor at(recording);
-        _exit(!Model(number).run(at, recording.end + RESET + 1));
+        _exit(!Model(number, recording).run(at, recording.end + RESET + 1));
     }
     int status = 0;
     if (copy < 0 || waitpid(copy, &status, 0) != copy) std::abort();
@@ -297,7 +298,7 @@ std::vector<int> killed(const Recording& recording, int every, const Layout& lay
     std::vector<int> found;
     std::list<int> alive;
     std::vector<char> before(SIZE), tried(noted.size(), false);
-    Model rtl(every);
+    Model rtl(every, recording);
     Cursor at(recording);
     rtl.run(at, 1);
     all_kinds.begin(rtl.state());
@@ -314,7 +315,7 @@ std::vector<int> killed(const Recording& recording, int every, const Layout& lay
         for (auto& [number, mutant] : mutants) {
             if (!noted[number] || tried[number] || mutant.left < BLOCK || mutant.knows(kinds)) continue;
             if (!mutant.model) {
-                mutant.model = std::make_unique<Model>(number);
+                mutant.model = std::make_unique<Model>(number, recording);
                 mutant.model->select(recording);
             }
             layout.copy(mutant.model->state(), before.data());

@@ -28,9 +28,10 @@ from openppmc.check.records import Recording
 from scripts.measure.campaign.jobs import Result
 from scripts.measure.campaign.tree import SIMULATED, tree
 from scripts.measure.coverage.work import pytest
+from scripts.measure.mutants.made import killed
 from scripts.measure.mutants.made.layout import registers
 from scripts.measure.mutants.made.schema import EVERY
-from scripts.measure.mutants.made.work import Bulk, noting_copy_of
+from scripts.measure.mutants.made.work import KILLED, Bulk, noting_copy_of
 
 BUDGET, LONG = 6_000_000, 300_000
 """Numbers of cycles: for which one mutant of a design is simulated at most; of a very long recording."""
@@ -82,14 +83,18 @@ def designs() -> dict[tuple[str, str], list[Path]]:
 
 
 def replayed(work: Bulk) -> Result:
-    """Replay recordings into the mutants of a folder; return the digest of the one that kills each mutant."""
-    killed: dict[str, str] = {}
+    """Replay recordings into the mutants of a folder; return the digest of the one that kills each mutant.
+
+    Each killed mutant is also stored at once, because a replay takes up to some hours.
+    """
+    found: dict[str, str] = {}
     for (part, params), recordings in designs().items():
         every = sources(rtl_part(part))
-        left = [(file, n) for file, n in work.mutants if f"{file} {n}" not in killed and ROOT / file in every]
-        if left:
-            killed |= _killed(left, part, params, recordings)
-    return Result(True, {"found": {key: f"recording {name}" for key, name in killed.items()}})
+        left = [(file, n) for file, n in work.mutants if f"{file} {n}" not in found and ROOT / file in every]
+        for key, recording in _killed(left, part, params, recordings) if left else ():
+            found[key] = f"recording {recording}"
+            killed.note(key, KILLED, found[key])
+    return Result(True, {"found": found})
 
 
 def _killed(
@@ -123,10 +128,15 @@ def _killed(
             packed.write_bytes(_packed(pins, values, recordings))
     chosen = [str(place * _MANY + n) for place, numbers in enumerate(files.values()) for n in sorted(numbers)]
     command = [built / row.top, packed, str(EVERY), str(BUDGET), *chosen]
-    done = subprocess.run(command, input=places, stdout=subprocess.PIPE, text=True, check=True)
-    for line in done.stdout.splitlines():
-        number, place = map(int, line.split())
-        yield f"{list(files)[number // _MANY]} {number % _MANY}", recordings[place].stem
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdin is not None and process.stdout is not None
+        with process.stdin:
+            process.stdin.write(places)
+        for line in process.stdout:
+            number, place = map(int, line.split())
+            yield f"{list(files)[number // _MANY]} {number % _MANY}", recordings[place].stem
+    if process.returncode:
+        raise subprocess.CalledProcessError(process.returncode, command)
 
 
 def _packed(pins: Part, params: Mapping[str, object], recordings: Sequence[Path]) -> bytes:
