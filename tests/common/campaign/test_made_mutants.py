@@ -195,12 +195,17 @@ def test_one_alone() -> None:
 
 
 def test_proofs_of_a_file() -> None:
-    """Proofs of the block in a file are listed separately from proofs of blocks that contain this block."""
+    """Proofs of the block in a file are listed separately from proofs of blocks that contain this block. If it
+    has no proof of its own, the blocks of its folder that contain it come first.
+    """
     own, others = proofs_of("rtl/motion/ppmc_stop_monitor.sv")
     assert {one.block for one in own} == {"ppmc_stop_monitor"}
     assert {"ppmc_axis", "ppmc_proc_time"} & {one.block for one in others}
     assert "ppmc_uart_rx" not in {one.block for one in others}
-    assert proofs_of("rtl/common/ppmc_lfsr_pkg.sv")[0] == []
+    own, others = proofs_of("rtl/ppmc312/front/ppmc312_serial_poll.sv")
+    assert {one.block for one in own} == {"ppmc312_serial_reply", "ppmc312_serial"}
+    assert {one.block for one in others} == {"ppmc312"}
+    assert proofs_of("rtl/ppmc312/stages/ppmc312_stage_unit.sv")[0] == []
     assert proofs_of("rtl/pmc006/pmc006_carrier.sv") == ([], [])
 
 

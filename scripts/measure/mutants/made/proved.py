@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 
 from cocotb_tests.harness.project import ROOT
+from openppmc import parts
 from scripts.measure.mutants.made.faults import Fault, alone
 from scripts.measure.prove.check import check, place
 from scripts.measure.prove.table import Change, Proof, proofs
@@ -31,11 +32,16 @@ def _block_files(proof: Proof) -> set[str]:
 
 @cache
 def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
-    """Return the proofs of the block itself, and of blocks that contain it, unless a stub replaces it."""
-    name = Path(file).stem
+    """Return the proofs of the block itself, and of blocks that contain it, unless a stub replaces it.
+
+    If a block has no proof of its own, the proofs of blocks in its folder take their place, except whole parts.
+    """
+    folder, name = file.split("/")[1], Path(file).stem
     quick = (one for one in proofs() if not one.night)
     found = [one for one in quick if ROOT / file in one.sources() and name in _block_files(one)]
     own = [one for one in found if one.block == name]
+    tops = {row.top for row in parts.tops()}
+    own = own or [one for one in found if one.folder == folder and one.block not in tops]
     return own, [one for one in found if one not in own]
 
 
