@@ -195,8 +195,9 @@ def test_one_alone() -> None:
 
 
 def test_proofs_of_a_file() -> None:
-    """Proofs of the block in a file are listed separately from proofs of blocks that contain this block. If it
-    has no proof of its own, the blocks of its folder that contain it come first.
+    """Proofs of the block in a file are listed separately from proofs of blocks that contain this block.
+
+    If it has no proof of its own, the proofs of blocks in its folder that contain it take their place.
     """
     own, others = proofs_of("rtl/motion/ppmc_stop_monitor.sv")
     assert {one.block for one in own} == {"ppmc_stop_monitor"}

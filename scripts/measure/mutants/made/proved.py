@@ -34,7 +34,7 @@ def _block_files(proof: Proof) -> set[str]:
 def proofs_of(file: str) -> tuple[list[Proof], list[Proof]]:
     """Return the proofs of the block itself, and of blocks that contain it, unless a stub replaces it.
 
-    If a block has no proof of its own, the proofs of blocks in its folder take their place, except whole parts.
+    For a block without a proof, the proofs of blocks in its folder, except whole parts, take the first place.
     """
     folder, name = file.split("/")[1], Path(file).stem
     quick = (one for one in proofs() if not one.night)
