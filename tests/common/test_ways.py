@@ -31,7 +31,7 @@ def measured(way: str, *words: str) -> list[str]:
     """Return the result of `ways` in a separate process."""
     command = [sys.executable, "-m", "tests.common.ways", way, *words]
     done = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False, timeout=120)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0 and done.stdout, done.stderr
     return json.loads(done.stdout)
 
 

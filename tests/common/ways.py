@@ -75,4 +75,4 @@ if __name__ == "__main__":
     way, *rest = sys.argv[1:]
     standard, sys.stdout = sys.stdout, sys.stderr
     found = modules(*rest) if way == "modules" else {"files": files, "frames": frames}[way](rest)
-    json.dump(found, standard)
+    print(json.dumps(found), file=standard, flush=True)  # an error of the last write must not be lost at exit
