@@ -77,7 +77,8 @@ def verilator_environment(folder: Path) -> dict[str, str]:
     """
     env = {name: value for name, value in os.environ.items() if name != "VERILATOR_ROOT"}
     # Verilator's makefile rejects a current folder with a space in its name, but never uses this name.
-    env["MAKEFLAGS"] = "-- CURDIR=."
+    # It calls `python`, which Debian does not have.
+    env["MAKEFLAGS"] = "-- CURDIR=. PYTHON3=python3"
     if (home := package()) is not None:
         root = seen_from(folder, home)
         if re.search(r"[^\w./+@=,~-]", root, re.ASCII):

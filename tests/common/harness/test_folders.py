@@ -79,6 +79,16 @@ def test_verilator_elsewhere_in_an_odd_folder_is_refused(monkeypatch: pytest.Mon
         verilator_environment(Path("/srv/project/build"))
 
 
+def test_make_calls_python3(tmp_path: Path) -> None:
+    """Verilator's makefile calls python, which Debian does not have; python3 takes its place."""
+    makefile = "PYTHON3 = python\nall:\n\t@echo $(PYTHON3)\n"
+    env = verilator_environment(tmp_path)
+    said = subprocess.run(
+        ["make", "-f", "-"], input=makefile, env=env, text=True, capture_output=True, check=True
+    )
+    assert said.stdout == "python3\n"
+
+
 def test_the_command_starts_in_an_odd_folder(tmp_path: Path) -> None:
     """The command starts, also through a link, and uses the Python in its own folder."""
     folder = tmp_path / ODD / "bin"
