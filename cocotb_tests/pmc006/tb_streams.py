@@ -39,7 +39,7 @@ def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
 @rtl_only("the golden model's record leaves them out; test_ac_29 counts its ones")
 @directed("P006-EXC-40", "P006-AC-29")
 async def p006_streams(dut: Any) -> None:
-    """For references of many values and both signs, each stream is the carry of its running sum."""
+    """For references of many values and both signs, each stream is the carry of its running sum; 0 in a reset."""
     host = await Host.start(dut, boot=False)
     assert isinstance(host.bench, RtlBench)
     for name in PMC006.unwatched:
@@ -55,3 +55,6 @@ async def p006_streams(dut: Any) -> None:
     for phase in "ab":
         seen = host.edges(f"pwm_{phase}_ref")
         assert len(seen) > 5_000 and seen == stream(host.edges(f"phase_{phase}_ref"), host.bench.now - 1)
+    await host.pins(rst_n=0)
+    await host.pause(4)
+    assert [int(getattr(dut, name).value) for name in PMC006.unwatched] == [0, 0]
