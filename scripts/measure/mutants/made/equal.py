@@ -9,7 +9,8 @@ Nearly all registers have the same value in the RTL and in the mutant. A model t
 registers, and a second copy only of those in which a search found a difference. ABC proves that no other
 register differs. The first proof contains only the registers of the block; all others are free inputs, so the
 model does all that the part does, and more. If this proof fails, the next one also contains the blocks around
-it. RAMs are outside the model: after a different address, the mutant reads arbitrary data.
+it. If all fail, the registers that differed in them get a second copy, too. RAMs are outside the model: after
+a different address, the mutant reads arbitrary data.
 
 The module is started as ``python -m scripts.measure.mutants.made.equal JOB.json`` in a separate process,
 because yosys calls exit() on an error. It writes part.aag to the job's folder.
@@ -39,11 +40,10 @@ from scripts.measure.prove import engine
 from scripts.measure.prove.check import yosys
 
 RESET = 4
-LIMIT, LONGEST = 3, 20
+LIMIT, LONGEST = 2, 20
 """Time limits in s: of one run of ABC; of the time after which no further run begins for a mutant."""
-FRAMES, FURTHER = 12, 8
-"""Numbers of cycles: of the first search for a difference; by which a further search goes beyond the
-difference that a proof with free inputs found."""
+FRAMES = 12
+"""Number of cycles of a search for a difference."""
 MOST = 200
 """Maximum number of registers that may differ."""
 OUTPUT = "output"
@@ -63,19 +63,19 @@ def equal(work: Bulk) -> Result:
     """Return those of the mutants of a file that are proved equal to the RTL in every part."""
     file, left = work.mutants[0][0], {number for _, number in work.mutants}
     proofs: dict[int, tuple[frozenset[str], str]] = {}
-    contained: set[int] = set()
     rows = [row for row in parts.tops() if ROOT / file in sources(row)]
     for row, params in [(top, params) for top in rows for _, params in settings(top)]:
         part = Part(row, params, file, left)
         if part.trouble:
             return Result(True, {"found": {}})
-        if part.selections:
-            found = {number: part.equal(number, *proofs.get(number, (frozenset(), ""))) for number in left}
-            proofs = {number: proof for number, proof in found.items() if proof}
-            left = set(proofs)
-            contained |= part.contained
+        for number in sorted(left & part.contained):
+            proof = part.equal(number, *proofs.get(number, (frozenset(), "")))
+            if proof:
+                proofs[number] = proof
+            else:
+                left.remove(number)
         shutil.rmtree(part.folder)
-    return Result(True, {"found": {f"{file} {number}": "" for number in sorted(left & contained)}})
+    return Result(True, {"found": {f"{file} {number}": "" for number in sorted(left & proofs.keys())}})
 
 
 class Part:
@@ -134,42 +134,38 @@ class Part:
             differing: names of the registers that differ with other parameters, with which the search begins.
             scope: scope of a proof with other parameters, "" without one.
         """
-        frames, end = FRAMES, time.monotonic() + LONGEST
+        end = time.monotonic() + LONGEST
         while time.monotonic() < end:
-            found = self.difference(number, differing, frames)
+            found = self.difference(number, differing)
+            if not found:
+                for one in self.scopes[self.scopes.index(scope) if scope else 0 :]:
+                    proved, maybe = self.proved(number, differing, one)
+                    if proved:
+                        return differing, one
+                    found |= maybe - {OUTPUT}
             differing |= found
-            if OUTPUT in found or sum(vector in differing for _, _, vector in self.registers) > MOST:
+            count = sum(vector in differing for _, _, vector in self.registers)
+            if not found or OUTPUT in found or count > MOST:
                 break
-            if found:
-                continue
-            beyond = 0
-            for one in self.scopes[self.scopes.index(scope) if scope else 0 :]:
-                proved, cycle = self.proved(number, differing, one)
-                if proved:
-                    return differing, one
-                beyond = max(beyond, cycle + FURTHER)
-            if beyond <= frames:
-                break
-            frames = beyond
         return None
 
-    def difference(self, number: int, differing: frozenset[str], frames: int) -> set[str]:
-        """Return the name of the first other register that differs within a number of cycles, if any."""
+    def difference(self, number: int, differing: frozenset[str]) -> set[str]:
+        """Return the name of the first other register that differs in the first cycles, if any."""
         model, found = self.model(number, differing)
         model.write(self.folder / "search.aig", list(found.values()))
-        hits = engine.hits(engine.ask(self.folder, "search", f"bmc3 -F {frames} -T {LIMIT}"))
+        hits = engine.hits(engine.ask(self.folder, "search", f"bmc3 -F {FRAMES} -T {LIMIT}"))
         return {list(found)[output] for output in hits}
 
-    def proved(self, number: int, differing: frozenset[str], scope: str) -> tuple[bool, int]:
-        """Prove that no other register differs; return the success, and the cycle of a difference or 0."""
+    def proved(self, number: int, differing: frozenset[str], scope: str) -> tuple[bool, set[str]]:
+        """Prove that no other register differs; return the success, and a register that may differ."""
         model, found = self.model(number, differing, scope)
         if not found:
-            return True, 0
+            return True, set()
         model.write(self.folder / "prove.aig", list(found.values()))
-        said = engine.ask(self.folder, "prove", f"orpos; dc2; pdr -T {LIMIT}")
-        if "UNDECIDED" in said:  # also if dc2 leaves nothing to prove
-            said = engine.ask(self.folder, "prove", f"orpos; pdr -T {LIMIT}")
-        return "Property proved." in said, max(engine.hits(said).values(), default=0)
+        said = engine.ask(self.folder, "prove", f"dc2; pdr -T {LIMIT}")
+        if "in frame 1." in said:  # dc2 has left nothing to prove
+            said = engine.ask(self.folder, "prove", f"pdr -T {LIMIT}")
+        return "Property proved." in said, {list(found)[output] for output in engine.hits(said)}
 
     def model(self, number: int, differing: frozenset[str], scope: str = "") -> tuple[Graph, dict[str, int]]:
         """Return the model and the literals that are true if a register, RAM or output differs, by its name.
