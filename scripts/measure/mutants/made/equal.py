@@ -119,7 +119,7 @@ class Part:
         vectors = [every[-1].partition("[")[0] if every else "" for every in names]
         self.registers = list(zip(self.graph.registers, names, vectors, strict=True))
         self.rams: dict[str, dict[str, list[int]]] = {}
-        self.scopes: list[str] = []
+        self.scopes = [""]
         for name, literal in (*self.inputs.items(), *self.outputs.items()):
             if port := RAM_PORT.fullmatch(name):
                 self.rams.setdefault(port[1], {}).setdefault(port[2], []).append(literal)
