@@ -39,7 +39,10 @@ def stream(refs: list[tuple[int, int]], end: int) -> list[tuple[int, int]]:
 @rtl_only("the golden model's record leaves them out; test_ac_29 counts its ones")
 @directed("P006-EXC-40", "P006-AC-29")
 async def p006_streams(dut: Any) -> None:
-    """For references of many values and both signs, each stream is the carry of its running sum; 0 in a reset."""
+    """For references of many values and both signs, each stream is the carry of its running sum.
+
+    In a reset, both streams are 0.
+    """
     host = await Host.start(dut, boot=False)
     assert isinstance(host.bench, RtlBench)
     for name in PMC006.unwatched:

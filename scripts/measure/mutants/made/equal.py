@@ -41,7 +41,7 @@ from scripts.measure.prove.check import yosys
 
 RESET = 4
 LIMIT, LONGEST = 2, 20
-"""Time limits in s: of one run of ABC; of the time after which no further run begins for a mutant."""
+"""Time limit in s of one run of ABC, and time after which no further run begins for a mutant."""
 FRAMES = 12
 """Number of cycles of a search for a difference."""
 MOST = 200
