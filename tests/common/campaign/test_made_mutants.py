@@ -140,7 +140,7 @@ def test_equal_mutants(monkeypatch: pytest.MonkeyPatch) -> None:
     block cannot always be true. A mutant that no part contains is not equal.
     """
     monkeypatch.setattr(equal, "settings", lambda _row: [("", {})])
-    monkeypatch.setattr(equal, "LONGEST", 2)
+    monkeypatch.setattr(equal, "LONGEST", 10)
     file, other = "rtl/pmc006/drive/pmc006_stall.sv", "rtl/ppmc104/ppmc104_proc_time.sv"
     always = {fault.number: fault.line for fault in of_file(file) if fault.what == "always"}
     found = equal.equal(Bulk(tuple((file, number) for number in always))).data["found"]
