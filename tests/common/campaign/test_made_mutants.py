@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from subprocess import CalledProcessError
 
 import pytest
 
@@ -105,13 +106,29 @@ def test_power_up_differs_between_recordings(monkeypatch: pytest.MonkeyPatch, tm
 def test_a_mutant_that_differs_late(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """A mutant that first differs from the RTL at a read, long after the reset, is killed."""
     file = "rtl/host/ppmc_strobe_bus.sv"
-    write = [(30, "cs_n", 0), (30, "wr_n", 0), (30, "d_i", 0xF9), (40, "wr_n", 1), (40, "cs_n", 1)]
-    read = [(50, "cs_n", 0), (50, "rd_n", 0), (50, "a0", 1), (60, "rd_n", 1), (60, "cs_n", 1)]
-    recording = Recording("ppmc104", PARAMS, end=100, stimulus=[Change(*row) for row in write + read])
-    recording.edges = edges_of(recording, new_model("ppmc104", PARAMS))
-    found = _replayed(monkeypatch, tmp_path, file, read=recording)
+    found = _replayed(monkeypatch, tmp_path, file, access=_access())
     here = [one for one in of_file(file) if "d_o <= a0_i" in page.lines(file)[one.line - 1]]
     assert {"never", "condition inverted"} <= {one.what for one in here if f"{file} {one.number}" in found}
+
+
+def test_missing_registers_end_the_replay(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """A replay that does not know some registers would drop mutants that differ only in these registers."""
+    every = replay.registers
+    monkeypatch.setattr(replay, "registers", lambda *files: [*every(*files)][:1])
+    with pytest.raises(CalledProcessError):
+        _replayed(monkeypatch, tmp_path, "rtl/host/ppmc_strobe_bus.sv", access=_access())
+    assert "a register is missing" in capfd.readouterr().err
+
+
+def _access() -> Recording:
+    """Return the recording of a write access and a read access to a PPMC-104."""
+    write = [(30, "cs_n", 0), (30, "wr_n", 0), (30, "d_i", 0xF9), (40, "wr_n", 1), (40, "cs_n", 1)]
+    read = [(70, "cs_n", 0), (70, "rd_n", 0), (70, "a0", 1), (80, "rd_n", 1), (80, "cs_n", 1)]
+    recording = Recording("ppmc104", PARAMS, end=100, stimulus=[Change(*row) for row in write + read])
+    recording.edges = edges_of(recording, new_model("ppmc104", PARAMS))
+    return recording
 
 
 PARAMS: dict[str, object] = {"CLK_HZ": 16_000_000, "XTAL_HZ": 16_000_000, "TIMING": "FAST"}

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-_CLOCKED = re.compile(r"(\w+)(?:\[[^\]]*\]|\.\w+)*\s*<=")
-"""Registers. Names before other `<=` are found, too, and do no harm."""
+_CLOCKED = re.compile(r"(\{[^{}]*\}|\w+)(?:\[[^\]]*\]|\.\w+)*\s*<=")
+"""Registers, or a list of them. Names before other `<=` are found, too, and do no harm."""
+_CONNECTED = re.compile(r"\.(\w+)\s*\(\s*(\w+)")
+"""Port and the signal to which it is connected."""
 _VARIABLE = re.compile(
     r"^ +(?:VL_(?:IN|OUT|INOUT)(?P<bits>\w*)\((?P<port>\w+),\d+,\d+(?:,(?P<words>\d+))?\)"
     r"|(?P<kind>[CSIQ]Data|Vl\w+<.*>) (?P<name>\w+));",
@@ -16,13 +18,13 @@ _SIZES = {"CData": 1, "8": 1, "SData": 2, "16": 2, "IData": 4, "": 4, "QData": 8
 
 
 def registers(header: str, texts: Iterable[str]) -> Iterator[int]:
-    """Yield where the variables of a model end, then place and size of each register, in bytes.
+    """Yield where the variables of a model end, then place and size of each register and input, in bytes.
 
     Args:
         header: the C++ header of the model.
         texts: the RTL files.
     """
-    clocked = {name for text in texts for name in _CLOCKED.findall(text)}
+    clocked = _clocked("\n".join(texts))
     found: list[int] = []
     at = 0
     variables = header.partition("DESIGN SPECIFIC STATE")[2].partition("INTERNAL VARIABLES")[0]
@@ -33,12 +35,22 @@ def registers(header: str, texts: Iterable[str]) -> Iterator[int]:
         at = _aligned(at, widest)
         for line, (size, align) in zip(lines, sizes, strict=True):
             at = _aligned(at, align)
-            if (line["name"] or line["port"]).rpartition("__DOT__")[2] in clocked:
+            name = line["name"] or line["port"]
+            if "VL_IN" in line[0] or name.rpartition("__")[2] in clocked:
                 found += [at, size]
             at += size
         at = _aligned(at, widest)
     yield _aligned(at, 8)
     yield from found
+
+
+def _clocked(text: str) -> set[str]:
+    """Return the names of registers, and of all signals that a model may contain in place of a register."""
+    found = {name for left in _CLOCKED.findall(text) for name in re.findall(r"[A-Za-z_]\w*", left)}
+    connected = _CONNECTED.findall(text)
+    while more := {signal for port, signal in connected if port in found} - found:
+        found |= more
+    return found
 
 
 def _size(kind: str, words: str | None = None) -> tuple[int, int]:

@@ -31,6 +31,8 @@
 #include "verilated.h"
 #include "verilated_syms.h"
 
+void Vtop___024root___eval_settle(Vtop___024root* model);  // of Verilator
+
 namespace {
 
 using Word = std::uint64_t;
@@ -48,6 +50,7 @@ constexpr Word RESET = 6;       // number of steps before the first cycle of a r
 constexpr Word BLOCK = 16;      // number of steps of a block
 constexpr int TRIALS = 4;       // number of blocks with a step of the same kind in which a mutant is simulated in vain
 constexpr int PATIENCE = 1024;  // number of successive blocks without a new kind of step in which it may go on
+constexpr std::size_t CHECKED = 20;  // number of recordings with which the layout is checked
 constexpr std::size_t SIZE = offsetof(Vtop___024root, vlSymsp);  // of all variables, in bytes
 
 std::vector<std::string> ports;  // clk, rst_n, the other inputs, the outputs
@@ -150,6 +153,9 @@ class Model {
         }
     }
 
+    // Compute all signals that depend on registers only.
+    void settle() { Vtop___024root___eval_settle(top_->rootp); }
+
     char* state() { return reinterpret_cast<char*>(top_->rootp); }
 
   private:
@@ -227,6 +233,8 @@ class Layout {
         std::size_t end, first, size;
         if (!(std::cin >> end) || end != SIZE) std::abort();
         while (std::cin >> first >> size) registers_.push_back({first, first + size});
+        for (std::size_t n = 0; n < recordings.size(); n += (recordings.size() + CHECKED - 1) / CHECKED)
+            check(recordings[n], every);
     }
     void copy(char* to, const char* from) const {
         for (const auto& [first, end] : common_) std::memcpy(to + first, from + first, end - first);
@@ -238,6 +246,25 @@ class Layout {
     }
 
   private:
+    // The registers alone must determine what follows. They are copied into a model that is in another state.
+    void check(const Recording& recording, int every) const {
+        Model one(every, recording), other(every, recording);
+        Cursor at(recording), early(recording);
+        one.run(at, recording.end / 2);
+        other.run(early, recording.end / 4);
+        for (const auto& [first, end] : registers_)
+            std::memcpy(other.state() + first, one.state() + first, end - first);
+        other.settle();
+        Cursor copy = at;
+        while (at.more()) {
+            if (!one.run(at, BLOCK)) break;
+            if (!other.run(copy, BLOCK) || !same_registers(one.state(), other.state())) {
+                std::fputs("a register is missing in the layout of the model\n", stderr);
+                std::exit(1);
+            }
+        }
+    }
+
     Ranges common_, registers_;
 };
 
