@@ -79,6 +79,13 @@ async def cruise(host: Host, interval: float, limit_us: float = 1_000_000) -> No
         last = [host.in_us(b - a) for a, b in pairwise(steps)]
 
 
+async def samples(host: Host, *levels: int) -> None:
+    """Apply samples of the back EMF."""
+    for level in levels:
+        await host.strobe(bemf_level=level)
+        await host.pause(30)
+
+
 async def is_stopped(host: Host, clk: int | None = None) -> bool:
     """Return whether no step is made for this number of cycles (default: 10 ms)."""
     await host.sync()

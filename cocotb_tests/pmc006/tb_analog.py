@@ -12,6 +12,7 @@ import cocotb
 from .builds import directed
 from .host import Host
 from .moves import (
+    STALL,
     after_steps,
     constant_speed_host,
     cruise,
@@ -19,6 +20,7 @@ from .moves import (
     is_stopped,
     load,
     run,
+    samples,
     start,
     wait_stopped,
 )
@@ -42,10 +44,13 @@ def target(full: int, value: int) -> int:
     return full * (value + (value >> 9)) // 1024
 
 
-@cocotb.parametrize(value=[1023, 511, 512, 700])
+@cocotb.parametrize(value=[1023, 511, 512, 700, 441, 952])
 @directed("P006-MOT-51", "P006-MOT-50", "P006-STA-02", "P006-STA-04")
 async def p006_targets(dut: Any, value: int) -> None:
-    """If the target is below VSTART, the motion runs at the target from its first step on."""
+    """If the target is below VSTART, the motion runs at the target from its first step on.
+
+    With the values 441 and 952, the exact target is only 1/128 below the next integer.
+    """
     assert [target(8000, h) for h in (0, 1, 511, 512, 1023)] == [0, 7, 3992, 4007, 8000]
     host = await regulated(dut, 3000, value)
     await run(host)
@@ -103,6 +108,22 @@ async def p006_voltage_of_zero(dut: Any) -> None:
     await start(host, 5)
     await wait_stopped(host)
     assert host.step_count() == 5
+
+
+@directed("P006-STL-01", "P006-MOT-31", "P006-MOT-51")
+async def p006_samples_at_a_speed_of_zero(dut: Any) -> None:
+    """At a voltage of 0, the speed is constant, but samples of the stall detector do not count."""
+    host = await regulated(dut, 3000, 0)
+    await host.ok(Z=511, T=3, Y=1)
+    await start(host, 400)
+    await host.ms(25)
+    await samples(host, *[0] * 5)
+    assert await host.busy() and not await host.status() & STALL
+    await host.strobe(adc_data=800)
+    await cruise(host, 1_000_000 / target(3000, 800), 90_000)
+    await host.ms(3)
+    await samples(host, *[0] * 5)
+    assert await host.status() & STALL and await host.ask("I") == 0
 
 
 @directed("P006-MOT-52", "P006-MOT-51", "P006-MOT-50", "P006-CMD-43", "P006-PRG-14")

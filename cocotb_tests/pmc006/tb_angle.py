@@ -174,6 +174,21 @@ async def p006_factors_act_at_once(dut: Any) -> None:
     await host.ask("I")
 
 
+@directed("P006-EXC-22", "P006-EXC-23", "P006-CMD-54", "P006-MOT-22")
+async def p006_factors_that_change_during_a_calculation(dut: Any) -> None:
+    """CCOMP, SCOMP, CUR and VMAX are sampled at update ticks, every 100 us; the calculation that follows a
+    tick does not use a later value.
+    """
+    host = await set_constant_speed(await Host.start(dut), 2000, m=0, a=0, e=1000)
+    await run(host)
+    begin, tick = host.t, host.us(100)
+    for offset in range(0, tick, 50):
+        for name, values in (("M", (1200, 300)), ("P", (300, 1250)), ("e", (2500, 1000)), ("v", (2050, 2000))):
+            await host.go(begin + ((host.t - begin) // tick + 1) * tick + offset)
+            await host.ok(**{name: values[offset // 50 % 2]})
+    assert await host.ask("I") == 0
+
+
 @directed("P006-EXC-30", "P006-EXC-31", "P006-EXC-32", "P006-CMD-14", "P006-CMD-22", "P006-STA-03")
 async def p006_decay(dut: Any) -> None:
     """The current is reduced by the selected coefficient when 100 ms have passed since the fall of BUSY.

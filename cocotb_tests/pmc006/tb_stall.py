@@ -10,7 +10,7 @@ from typing import Any
 import cocotb
 
 from .builds import directed
-from .host import Host
+from .host import START, Host
 from .moves import (
     DECAY,
     SPEED_MODE,
@@ -18,6 +18,7 @@ from .moves import (
     constant_speed_host,
     cruise,
     run,
+    samples,
     start,
     wait_stopped,
 )
@@ -33,13 +34,6 @@ async def cruising(dut: Any, level: int = 256, length: int = 5, y: int = 1) -> H
     await run(host)
     await cruise(host, 1_000_000 / 3000)
     return host
-
-
-async def samples(host: Host, *levels: int) -> None:
-    """Apply samples of the back EMF."""
-    for level in levels:
-        await host.strobe(bemf_level=level)
-        await host.pause(30)
 
 
 @cocotb.parametrize(case=[(0, 1), (1, 1), (2, 2), (63, 63)])
@@ -104,6 +98,19 @@ async def p006_samples_off_constant_speed(dut: Any) -> None:
     await host.pins(bemf_valid=0)
     assert await host.status() & STALL
     await host.ask("I")
+
+
+@directed("P006-STL-01", "P006-STL-03", "P006-MOT-04")
+async def p006_samples_before_the_first_interval(dut: Any) -> None:
+    """After a motion that ended at constant speed, no sample counts from the next start to t = 0."""
+    host = await cruising(dut, y=5)
+    assert await host.ask("I") == 0
+    await host.pins(bemf_level=0, bemf_valid=1)
+    await run(host)
+    await host.pins(bemf_valid=0)
+    begun, stalled = host.edges("mon_busy", host.mark)[-1][0], host.edges("gpo", host.mark)[0][0]
+    assert 800 <= stalled - begun <= START
+    assert await host.ask("I") == 0
 
 
 @directed("P006-STL-04", "P006-STL-02", "P006-STL-01")
