@@ -161,10 +161,10 @@ class Host(View, SerialLine):
         self.bench.set(**levels)
 
     async def strobe(self, **levels: int) -> None:
-        """Apply adc_data or bemf_level, with its valid signal high for one cycle."""
-        valid = {("adc_valid" if "adc_data" in levels else "bemf_valid"): 1}
-        await self.pins(**levels, **valid)
-        await self.pins(**dict.fromkeys(valid, 0))
+        """Apply adc_data or bemf_level, with its valid signal high for one cycle, then the inverted level."""
+        valid = "adc_valid" if "adc_data" in levels else "bemf_valid"
+        await self.pins(**levels, **{valid: 1})
+        await self.pins(**{name: level ^ 0x3FF for name, level in levels.items()}, **{valid: 0})
 
     # ------------------------------------------------------------------ frames
 

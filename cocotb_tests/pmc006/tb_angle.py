@@ -182,10 +182,11 @@ async def p006_factors_that_change_during_a_calculation(dut: Any) -> None:
     host = await set_constant_speed(await Host.start(dut), 2000, m=0, a=0, e=1000)
     await run(host)
     begin, tick = host.t, host.us(100)
-    for offset in range(0, tick, 50):
-        for name, values in (("M", (1200, 300)), ("P", (300, 1250)), ("e", (2500, 1000)), ("v", (2050, 2000))):
+    factors = (("M", 1200, 300), ("P", 300, 1250), ("e", 2500, 1000), ("v", 2050, 2000))
+    for number, offset in enumerate(range(0, tick, 50)):
+        for name, *values in factors:
             await host.go(begin + ((host.t - begin) // tick + 1) * tick + offset)
-            await host.ok(**{name: values[offset // 50 % 2]})
+            await host.ok(**{name: values[number % 2]})
     assert await host.ask("I") == 0
 
 

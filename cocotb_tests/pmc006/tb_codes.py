@@ -128,7 +128,8 @@ async def p006_addresses(dut: Any) -> None:
     for data in (1, 120, 64):
         assert await host.ask("w", data) == data and host.replied == data
         assert await host.status() == DECAY
-    assert await host.ask("w", 0x140) == 64
+    for data in (0x140, 0xFF, 0xFFFF, 0xFF00):
+        assert await host.ask("w", data) == 64 and host.replied == 64
 
 
 @directed("P006-CMD-46", "P006-IO-02", "P006-IO-03")

@@ -14,7 +14,7 @@ from cocotb_tests.harness.random_host import Builds
 
 from .host import Host
 from .misuse_host import MisuseHost
-from .reactive_host import ReactiveHost
+from .reactive_host import ReactiveHost, UnsortedHost
 
 ODD = Config("odd27x12", clk_hz=27_000_000, xtal_hz=12_000_000)
 build = Builds("p312", ((F16, 110), (F50, 22), (ODD, 22), (D16, 8)))
@@ -26,3 +26,8 @@ async def play(dut: Any, seed: int) -> None:
     """Play one seed; raise AssertionError if the device hangs or returns an invalid answer."""
     misuse = random.Random(f"p312 manners {seed}").random() < MISUSE_SHARE
     await (MisuseHost if misuse else ReactiveHost)(await Host.start(dut), seed).play()
+
+
+async def play_changes(dut: Any, seed: int) -> None:
+    """As `play`, with tables whose rates are not monotonic and many changes of the speed."""
+    await UnsortedHost(await Host.start(dut), seed).play()

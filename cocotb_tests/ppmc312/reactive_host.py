@@ -6,12 +6,17 @@ so that complete operations fit into a run. In some cases it misuses the device.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from cocotb_tests.harness.bus import CSR, MREF, MWEF
 from cocotb_tests.ppmc312.messages import message
 from openppmc.model.ppmc312.codes import Code, State
 
 from .host import Host
 from .scenario_host import ScenarioHost
+
+Scenes = tuple[tuple[Callable[[], Any], int], ...]
 
 
 class ReactiveHost(ScenarioHost):
@@ -29,7 +34,15 @@ class ReactiveHost(ScenarioHost):
         if rng.random() < 0.25:
             self.disturb_pins()
         await self.curve()
-        scenes = (
+        scenes = self.scenes()
+        while host.t < self.end:
+            await self.pick(scenes)()
+            await self.settle()
+        await self.recover()
+
+    def scenes(self) -> Scenes:
+        """Return the scenarios with their relative frequency."""
+        return (
             (self.finite, 26),
             (self.endless, 14),
             (self.changes_near_deceleration, 6),
@@ -51,10 +64,6 @@ class ReactiveHost(ScenarioHost):
             (self.misuse, 5),
             (self.curve, 4),
         )
-        while host.t < self.end:
-            await self.pick(scenes)()
-            await self.settle()
-        await self.recover()
 
     async def misuse(self) -> None:
         """Perform one action that misuses the device."""
@@ -107,3 +116,24 @@ class ReactiveHost(ScenarioHost):
             if rng.random() > self.reads:
                 break
             await self.response()
+
+
+class UnsortedHost(ReactiveHost):
+    """Host with tables whose rates are not monotonic (P312-BAD-15), which often changes the speed."""
+
+    def order(self, rates: list[int]) -> list[int]:
+        """Return the rates with the fastest first, the slowest last, and the others in any order."""
+        return [rates[0], *self.rng.sample(rates[1:-1], len(rates) - 2), rates[-1]]
+
+    def scenes(self) -> Scenes:
+        return (
+            (self.changed, 20),
+            (self.endless, 20),
+            (self.overrides, 10),
+            (self.changes_near_deceleration, 10),
+            (self.walk_change, 10),
+            (self.finite, 10),
+            (self.origin, 5),
+            (self.slow_limit, 10),
+            (self.curve, 20),
+        )

@@ -95,8 +95,7 @@ class ScenarioHost(MisuseHost):
         clk = rng.choice((0, 0, 0, 0, 0, 0, 0, 1, 2, 6, 7)) if not self.slow else rng.choice((0, 1))
         count = rng.choice((2, 3, 3, 4, 4, 5, 7))
         least, most = {0: (22, 130), 1: (12, 60), 2: (8, 30)}.get(clk, (3, 14))
-        self.rates = sorted(rng.randint(least, most) for _ in range(count))
-        self.rates = some_equal(self.rates, 0.3)
+        self.rates = self.order(some_equal(sorted(rng.randint(least, most) for _ in range(count)), 0.3))
         separate = rng.random() < 0.55
         up = down = count
         if separate and rng.random() < 0.6:
@@ -111,6 +110,10 @@ class ScenarioHost(MisuseHost):
             data = b"".join(value.to_bytes(width, "big") for value in values)
             await self.send_block(f"{int(number == len(lists) - 1):02X} {len(data):02X} {data.hex()}")
         self.background.external(host.t + 2, clk >= 6, rng)
+
+    def order(self, rates: list[int]) -> list[int]:
+        """Return the rates of a free curve in the order of its stages, fastest stage first."""
+        return rates
 
     # ------------------------------------------------------------ numbers
 

@@ -178,6 +178,13 @@ WALKS = [
         0x40,
     ),
     (
+        SLOW_EQUAL,
+        message(Code.RAMP, "00 0096 0000003C"),
+        [(20, change(0x88, 500)), (27, change(0x87, 100)), (35, change(0x87, 450))],
+        "500x3 400x6 200x4 150x7 500x7 400x8 450x25",
+        0x40,
+    ),
+    (
         LAST_EQUAL,
         message(Code.RAMP, "00 00C8 00000028"),
         [(22, change(0x87, 400)), (29, change(0x87, 200))],

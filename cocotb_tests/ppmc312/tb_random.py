@@ -34,6 +34,12 @@ async def p312_random_host(dut: Any, seed: int) -> None:
     await random_host.play(dut, seed)
 
 
+@random_test("P312-BAD-15", "P312-MOT-20", "P312-MOT-30", "P312-MOT-32", "P312-MOT-33", least=200)
+async def p312_random_changes(dut: Any, seed: int) -> None:
+    """As with random hosts, but in tables that are not monotonic, and with many changes of the speed."""
+    await random_host.play_changes(dut, seed)
+
+
 @random_test(
     "P312-BAD-01", "P312-BAD-02", "P312-BAD-09", "P312-PAR-09", "P312-PAR-10", "P312-GEN-01", least=1
 )

@@ -18,6 +18,7 @@ from .random_host import ODD, build, play
 SEEDS = range(1, 151)
 NOISE_SEEDS = range(1, 33)
 SERIAL_SEEDS = range(1, 41)
+CHANGE_SEEDS = range(1, 29)
 BATCH = 14
 
 
@@ -30,10 +31,15 @@ noise_item = RandomItems(
     in_turn(F16, F16, F50, ODD, F16, D16),
     BATCH,
 )
+changes_item = RandomItems(
+    "ppmc312", "tb_random", "p312_random_changes", CHANGE_SEEDS, in_turn(F16, F50), BATCH
+)
 serial_item = RandomItems(
     "ppmc312", "tb_random", "p312_random_serial", SERIAL_SEEDS, random_serial.build, BATCH
 )
-pytest_generate_tests = generating(test_random=random_item, test_noise=noise_item, test_serial=serial_item)
+pytest_generate_tests = generating(
+    test_random=random_item, test_noise=noise_item, test_changes=changes_item, test_serial=serial_item
+)
 
 
 def test_random(item: Item, seeds: str, sim_options: SimOptions) -> None:
@@ -46,6 +52,11 @@ def test_noise(item: Item, seeds: str, sim_options: SimOptions) -> None:
     noise_item.run(item, seeds, sim_options)
 
 
+def test_changes(item: Item, seeds: str, sim_options: SimOptions) -> None:
+    """With changes of the speed in tables that are not monotonic, every output edge equals the model."""
+    changes_item.run(item, seeds, sim_options)
+
+
 def test_serial(item: Item, seeds: str, sim_options: SimOptions) -> None:
     """With hosts on the serial line, every output edge equals that of the golden model."""
     serial_item.run(item, seeds, sim_options)
@@ -56,7 +67,7 @@ def test_scenarios_are_reproducible_and_varied() -> None:
     builds = [build(seed) for seed in SEEDS]
     assert builds == [build(seed) for seed in SEEDS]
     assert {config.name for config in builds} == build.names
-    assert random_item.complete and noise_item.complete and serial_item.complete
+    assert all(one.complete for one in (random_item, noise_item, changes_item, serial_item))
 
 
 def test_hosts_are_rich() -> None:
