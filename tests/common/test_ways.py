@@ -149,4 +149,4 @@ def test_scripts_have_few_lines() -> None:
     """The number of lines of the scripts is limited (docs/decisions/0137-lines-of-scripts.md)."""
     files = [path for path in (ROOT / "scripts").rglob("*") if path.suffix in (".py", ".yml", ".sh")]
     assert len(files) > 100
-    assert sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files) <= 25_515
+    assert sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files) <= 25_550

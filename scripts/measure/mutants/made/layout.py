@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from typing import Any
 
-_CLOCKED = re.compile(r"(\{[^{}]*\}|\w+)(?:\[[^\]]*\]|\.\w+)*\s*<=")
-"""Registers, or a list of them. Names before other `<=` are found, too, and do no harm."""
-_CONNECTED = re.compile(r"\.(\w+)\s*\(\s*(\w+)")
-"""Port and the signal to which it is connected."""
+from scripts.measure import syntax
+
 _VARIABLE = re.compile(
     r"^ +(?:VL_(?:IN|OUT|INOUT)(?P<bits>\w*)\((?P<port>\w+),\d+,\d+(?:,(?P<words>\d+))?\)"
     r"|(?P<kind>[CSIQ]Data|Vl\w+<.*>) (?P<name>\w+));",
     re.MULTILINE,
 )
+_PART = re.compile(r"(__BRA__\d+(__03a\d+)?__KET__)+$")
+"""End of the name of a part of a register."""
 _SIZES = {"CData": 1, "8": 1, "SData": 2, "16": 2, "IData": 4, "": 4, "QData": 8, "64": 8}
 
 
@@ -24,7 +25,7 @@ def registers(header: str, texts: Iterable[str]) -> Iterator[int]:
         header: the C++ header of the model.
         texts: the RTL files.
     """
-    clocked = _clocked("\n".join(texts))
+    clocked = _clocked(texts)
     found: list[int] = []
     at = 0
     variables = header.partition("DESIGN SPECIFIC STATE")[2].partition("INTERNAL VARIABLES")[0]
@@ -35,8 +36,10 @@ def registers(header: str, texts: Iterable[str]) -> Iterator[int]:
         at = _aligned(at, widest)
         for line, (size, align) in zip(lines, sizes, strict=True):
             at = _aligned(at, align)
-            name = line["name"] or line["port"]
-            if "VL_IN" in line[0] or name.rpartition("__")[2] in clocked:
+            name = _PART.sub("", line["name"] or line["port"])
+            *path, signal = re.split(r"__+(?:DOT__|BRA__\d+__KET__|Vcellout__)*", name)
+            instance = next((one for one in reversed(path) if one in clocked), "")
+            if "VL_IN" in line[0] or signal in clocked.get(instance, ()):
                 found += [at, size]
             at += size
         at = _aligned(at, widest)
@@ -44,13 +47,41 @@ def registers(header: str, texts: Iterable[str]) -> Iterator[int]:
     yield from found
 
 
-def _clocked(text: str) -> set[str]:
-    """Return the names of registers, and of all signals that a model may contain in place of a register."""
-    found = {name for left in _CLOCKED.findall(text) for name in re.findall(r"[A-Za-z_]\w*", left)}
-    connected = _CONNECTED.findall(text)
-    while more := {signal for port, signal in connected if port in found} - found:
-        found |= more
-    return found
+def _clocked(texts: Iterable[str]) -> dict[str, set[str]]:
+    """Return instance -> names of registers, and of all signals that a model may contain in their place.
+
+    Instances of different modules that have the same name are not distinguished.
+    """
+    found: dict[str, set[str]] = {}
+    instances: dict[str, set[str]] = {}
+    connected: list[tuple[str, str, str, set[str]]] = []
+    for text in texts:
+        for module in syntax.found(syntax.tree(text), "ModuleDeclaration"):
+            name = module.header.name.valueText
+            left = (one.left for one in syntax.found(module, "NonblockingAssignmentExpression"))
+            found[name] = {signal for one in left for signal in _names(one)}
+            instances[name] = {name}  # a model has the name of its top module
+            for group in syntax.found(module, "HierarchyInstantiation"):
+                child = group.type.valueText
+                for instance in syntax.found(group, "HierarchicalInstance"):
+                    instances.setdefault(instance.decl.name.valueText, set()).add(child)
+                    for port in syntax.found(instance, "NamedPortConnection"):
+                        pin = port.name.valueText
+                        connected.append((name, child, pin, _names(port.expr) if port.expr else {pin}))
+    grows = True
+    while grows:
+        grows = False
+        for name, child, pin, signals in connected:
+            if pin in found.get(child, ()) and not signals <= found[name]:
+                found[name] |= signals
+                grows = True
+    return {
+        instance: set().union(*(found.get(one, ()) for one in every)) for instance, every in instances.items()
+    }
+
+
+def _names(node: Any) -> set[str]:
+    return set(re.findall(r"[A-Za-z_]\w*", re.sub(r"//.*", "", str(node))))
 
 
 def _size(kind: str, words: str | None = None) -> tuple[int, int]:

@@ -31,7 +31,7 @@ from scripts.measure.coverage.work import pytest
 from scripts.measure.mutants.made import killed
 from scripts.measure.mutants.made.layout import registers
 from scripts.measure.mutants.made.schema import EVERY
-from scripts.measure.mutants.made.work import KILLED, Bulk, noting_copy_of
+from scripts.measure.mutants.made.work import KILLED, Bulk, digest, noting_copy_of
 
 BUDGET, LONG = 6_000_000, 300_000
 """Numbers of cycles: for which one mutant of a design is simulated at most; of a very long recording."""
@@ -88,6 +88,8 @@ def replayed(work: Bulk) -> Result:
     Each killed mutant is also stored at once, because a replay takes up to some hours.
     """
     found: dict[str, str] = {}
+    for file, _ in work.mutants:
+        digest(file)
     for (part, params), recordings in designs().items():
         every = sources(rtl_part(part))
         left = [(file, n) for file, n in work.mutants if f"{file} {n}" not in found and ROOT / file in every]

@@ -9,6 +9,7 @@ import hashlib
 import re
 from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 from cocotb_tests.harness.build import locked
@@ -54,8 +55,9 @@ class Mutant:
         return f"{self.file} {self.fault.number}"
 
 
+@cache
 def digest(file: str) -> str:
-    """Return the digest of a source file."""
+    """Return the digest of a source file when it was first used, because it may change during a long run."""
     return hashlib.sha256((ROOT / file).read_bytes()).hexdigest()[:12]
 
 
