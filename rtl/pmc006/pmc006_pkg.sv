@@ -161,7 +161,7 @@ package pmc006_pkg;
   typedef struct packed {
     logic busy;     // 1: a motion is in progress
     logic forward;  // direction of the current or last motion; 1: forward
-    logic steady;   // 1: constant speed above 0
+    logic steady;   // 1: constant speed above 0; valid with busy
   } motion_status_t;
 
   // Values from the motion for the drive.

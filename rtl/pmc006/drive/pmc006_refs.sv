@@ -73,7 +73,7 @@ module pmc006_refs (
       angle_q <= forward_i ? angle_i + 9'(lead_angle_i) : angle_i - 9'(lead_angle_i);
     end
     if (cycle_q == 5'd1) peak_q <= (peak_sum[11:8] != '0) ? 8'hff : peak_sum[7:0];
-    if (cycle_q == 5'd2) reduced_q <= off_q ? '0 : peak_q >> att_q;
+    reduced_q <= off_q ? '0 : peak_q >> att_q;  // stable from cycle 3 on
     product_q <= 9'(sum >> 1);
     if (cycle_q == 5'd16) a_q <= product_q[7:0];
   end

@@ -17,7 +17,7 @@ module pmc006_stall
     input  wire logic    [6:0] length_i,  // STLEN in samples; 0 has the effect of 1
     input  wire logic    [8:0] limit_i,   // STLVL; a sample below limit_i is low
     input  wire logic          busy_i,    // 1: a motion is in progress
-    input  wire logic          steady_i,  // 1: constant speed above 0
+    input  wire logic          steady_i,  // 1: constant speed above 0; valid with busy_i
     input  wire logic          start_i,   // strobe: a motion starts
     input  wire logic          clear_i,   // strobe: clear STALL
     output logic               stop_o,    // 1: stop the motion immediately

@@ -65,10 +65,7 @@ module pmc006_serial
 
   assign rx_on = ready_i && !rx_off_q;
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) line_high_q <= 1'b0;
-    else line_high_q <= rx_on && (line_high_q || line);
-  end
+  always_ff @(posedge clk_i) line_high_q <= rx_on && (line_high_q || line);
 
   ppmc_uart_rx #(
       .Width  (Width),

@@ -106,7 +106,7 @@ module pmc006_page
       sum_q <= sum_q + {8'd0, byte_received_i ? received_i : byte_o};
   end
 
-  always_ff @(posedge clk_i) if (byte_sent_i && !offset[0]) high_q <= field.pair[15:8];
+  always_ff @(posedge clk_i) if (byte_sent_i) high_q <= field.pair[15:8];
 
   always_comb begin
     unique case (offset)

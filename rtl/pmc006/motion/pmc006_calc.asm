@@ -7,7 +7,7 @@
 ; hi and lo are the accumulator pair of pmc006_calc, 32 bits each. pmc006_calc_pkg defines the names of words
 ; (M…), constants (K…), registers (R…), conditions, outputs and phases.
 ;
-;   load X           hi = X
+;   load X           hi = X, no carry
 ;   add X            hi = hi + X; Carry: overflow
 ;   sub X            hi = hi - X; Carry: X <= hi before
 ;   load.lo, add.lo, sub.lo    as load, add and sub, but the result is in lo, and hi = 0

@@ -184,7 +184,7 @@ module pmc006_calc
         OpLoad, OpAdd, OpSub: begin
           if (ir_q.aux[1]) {hi_q, lo_q} <= {32'd0, sum[31:0]};
           else hi_q <= sum[31:0];
-          if (ir_q.op != OpLoad) carry_q <= sum[32];
+          carry_q <= sum[32];
         end
         OpMul:   {hi_q, lo_q} <= {sum, lo_q[31:1]};
         OpDiv, OpRoot: begin

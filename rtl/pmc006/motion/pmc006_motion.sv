@@ -53,7 +53,7 @@ module pmc006_motion
           current_comp: current_comp_now,
           lead_angle: lead_angle_now
       };
-  assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q && busy_q};
+  assign motion_o = '{busy: busy_q, forward: forward_q, steady: steady_q};
 
   always_comb for (int unsigned i = 0; i < 8; i++) mstep[i] = increment_q[7-i];
 
@@ -63,19 +63,18 @@ module pmc006_motion
       start_q   <= 1'b0;
       forward_q <= 1'b1;
       adc_q     <= '0;
-      h_q       <= '0;
     end else begin
       start_q <= start;
       if (start) busy_q <= 1'b1;
       else if (motion_end) busy_q <= 1'b0;
       if (start) forward_q <= settings_i.dir;
       if (adc_i.valid) adc_q <= adc_i.level;
-      if (!busy_q || sample) h_q <= adc_q;
     end
   end
 
   // No reset: these registers are set before a motion begins.
   always_ff @(posedge clk_i) begin
+    if (!busy_q || sample) h_q <= adc_q;
     if (!busy_q) begin
       speed_q <= motion_start_i.run;
       short_q <= motion_start_i.start && motion_start_i.count[30:8] == '0;
@@ -101,7 +100,7 @@ module pmc006_motion
       .clk_i,
       .rst_ni,
       .plan_i        (start_q),
-      .advance_i     (advance && busy_q),
+      .advance_i     (advance),
       .busy_o        (calc_busy),
       .short_i       (short_q),
       .speed_i       (speed_q),
