@@ -14,6 +14,8 @@ from .host import EXECUTE, Host
 from .moves import after_steps, constant_speed_host, move, run, set_constant_speed, start, wait_stopped
 from .reference import HOME, boost, code, increment, lead, sines
 
+BEGUN = 25
+"""Number of cycles from the beginning of a computation to the new references."""
 REFS = 64
 """Maximum number of cycles from a cause to the change of the references."""
 NAMES = ("phase_a_ref", "phase_a_sign", "phase_b_ref", "phase_b_sign")
@@ -240,3 +242,24 @@ async def p006_free(dut: Any) -> None:
     assert not host.steps(off[0] + 5) and await host.position() == made
     await host.ok(g=0)
     assert await host.refs() == sines(HOME + 8 * made, code(2000)) and await host.out("bridge_b_en")
+
+
+@directed("P006-EXC-30", "P006-EXC-31")
+async def p006_end_of_the_decay(dut: Any) -> None:
+    """A computation of the references begins every 32 cycles. The first that begins when BUSY is 1 already
+    uses the full current.
+    """
+    host = await constant_speed_host(dut)
+    begin, delays = host.t, []
+    await start(host, 1)
+    busy = host.edges("mon_busy", begin)[0][0] - begin
+    for shift in (-1, 0, 1):
+        fall = await wait_stopped(host)
+        await host.go(fall + host.us(100_010) + REFS)
+        reduced = host.edges("phase_a_ref", fall)[-1][0]
+        await host.go(host.t + (reduced + shift - BEGUN - host.t - busy) % 32)
+        begin = host.t
+        await start(host, 1)
+        assert host.edges("mon_busy", begin)[0][0] == begin + busy
+        delays.append(host.edges("phase_a_ref", begin + busy)[0][0] - begin - busy)
+    assert delays == [BEGUN + 1, BEGUN, BEGUN + 31]
