@@ -127,13 +127,26 @@ class UnsortedHost(ReactiveHost):
 
     def scenes(self) -> Scenes:
         return (
-            (self.changed, 20),
-            (self.endless, 20),
-            (self.overrides, 10),
-            (self.changes_near_deceleration, 10),
-            (self.walk_change, 10),
-            (self.finite, 10),
+            (self.changes_at_pulses, 60),
+            (self.changes_near_deceleration, 5),
+            (self.endless, 10),
+            (self.overrides, 5),
             (self.origin, 5),
-            (self.slow_limit, 10),
-            (self.curve, 20),
+            (self.slow_limit, 5),
+            (self.curve, 10),
         )
+
+    async def changes_at_pulses(self) -> None:
+        """Make a move; change the speed after certain pulses, most of them near the deceleration point."""
+        rng, host = self.rng, self.host
+        await self.send_block(self.finite_block(rng.choice((0, 0, 3, 12, 30))).hex())
+        for _ in range(rng.randint(1, 5)):
+            if not self.model.motion.active:
+                return
+            sequence = self.model.motion.sequence
+            left = sequence.plan.n - sequence.plan.down - sequence.done
+            goal = sequence.done + rng.choice((rng.randint(0, 5), left + rng.randint(-8, 2)))
+            while self.model.motion.active and sequence.done < goal and host.t < self.end:
+                await self.attend(8)
+            await self.send_block(self.change_block(codes=(0x81, *[0x87] * 6, *[0x88] * 4)).hex())
+        await self.attend(2_000)
