@@ -16,7 +16,7 @@ from cocotb_tests.ppmc312.directed_host import TICK
 from cocotb_tests.ppmc312.host import Host
 from cocotb_tests.ppmc312.messages import message, rates, stopped
 from cocotb_tests.ppmc312.motion_tables import ALWAYS, ODD, SLOW_STOP, STOP, change, run_out
-from openppmc.model.ppmc312.codes import Code, Source
+from openppmc.model.ppmc312.codes import Code, Source, State
 
 # Equal neighbouring rates: R[122..126] = 400 400 200 200 100, pa = pd = 2 2 3 4 5.
 EQUAL = (
@@ -207,6 +207,9 @@ WALKS = [
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
+    # An instruction 87 that waits during the acceleration is discarded at the deceleration point. The
+    # deceleration then begins with all pulses of the present stage, not with those that were planned.
+    (TF, message(Code.RAMP, "00 0000 00000010"), [(4, change(0x87, 200))], "400x3 200x4 100x6 200x3", 0x40),
     # If two changes wait for one boundary, the newer one is used.
     (
         TF,
@@ -307,3 +310,17 @@ async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
         gaps = host.gaps(2)
         begun = gaps.index(31)
         assert gaps[:begun] == climb[:begun] and 3 < begun < 15 and gaps[begun:] == [31] * (29 - begun)
+
+
+@directed("P312-STA-01", "P312-MOT-11", "P312-MOT-12")
+async def p312_state_before_pulse_1(dut: Any) -> None:
+    """Before pulse 1, the state is ACC if the first interval belongs to a ramp, also to a deceleration that
+    begins with pulse 1. The external base clock stands still, so pulse 1 is not output.
+    """
+    blocks = (TH[0].replace(" 11 ", " 16 "), *TH[1:])
+    for rate, count, state in ((100, 30, State.ACC), (200, 5, State.ACC), (200, 30, State.FIX)):
+        host = await Host.start(dut, *blocks)
+        await host.ask(message(Code.RAMP, f"00 {rate:04X} {count:08X}"))
+        await host.pause(200)
+        assert not host.pulses() and await host.ask(message(Code.STATUS)) and host.condition == state
+        assert await host.ask(STOP) == message(Code.STOP)
