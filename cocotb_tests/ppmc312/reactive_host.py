@@ -141,9 +141,9 @@ class UnsortedHost(ReactiveHost):
         rng, host = self.rng, self.host
         await self.send_block(self.finite_block(rng.choice((0, 0, 3, 12, 30))).hex())
         for _ in range(rng.randint(1, 5)):
-            if not self.model.motion.active:
-                return
             sequence = self.model.motion.sequence
+            if not self.model.motion.active or sequence.plan.n is None:
+                return
             left = sequence.plan.n - sequence.plan.down - sequence.done
             goal = sequence.done + rng.choice((rng.randint(0, 5), left + rng.randint(-8, 2)))
             while self.model.motion.active and sequence.done < goal and host.t < self.end:

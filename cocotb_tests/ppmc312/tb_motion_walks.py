@@ -315,7 +315,7 @@ async def p312_stages_go_on_while_an_88_is_looked_up(dut: Any) -> None:
 @directed("P312-STA-01", "P312-MOT-11", "P312-MOT-12")
 async def p312_state_before_pulse_1(dut: Any) -> None:
     """Before pulse 1, the state is ACC if the first interval belongs to a ramp, also to a deceleration that
-    begins with pulse 1. The external base clock stands still, so pulse 1 is not output.
+    begins with pulse 1. The external base clock has no edges, so pulse 1 is not output.
     """
     blocks = (TH[0].replace(" 11 ", " 16 "), *TH[1:])
     for rate, count, state in ((100, 30, State.ACC), (200, 5, State.ACC), (200, 30, State.FIX)):

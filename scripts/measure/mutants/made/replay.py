@@ -33,7 +33,7 @@ from scripts.measure.mutants.made.layout import registers
 from scripts.measure.mutants.made.schema import EVERY
 from scripts.measure.mutants.made.work import KILLED, Bulk, digest, noting_copy_of
 
-BUDGET, LONG = 6_000_000, 300_000
+BUDGET, LONG = 60_000_000, 300_000
 """Numbers of cycles: for which one mutant of a design is simulated at most; of a very long recording."""
 FEWEST = 50
 """Minimum number of recordings of a design, because the design is built for each folder."""
