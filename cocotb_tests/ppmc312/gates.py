@@ -13,11 +13,12 @@ OF_THE_LINE = ("checks", "transactions", "line", "frames", "codes", "motions", "
 
 PART = PartTests(
     test_part,
-    frozenset({"test_ppmc312", "test_random", "test_noise", "test_serial"}),
+    frozenset({"test_ppmc312", "test_random", "test_noise", "test_changes", "test_serial"}),
     test_random,
     {
         test_random.random_item: (2, 3, 4, 5, 6, 8),
         test_random.noise_item: (1, 4, 7),
+        test_random.changes_item: (2,),
         test_random.serial_item: (31,),
     },
     frozenset({"f16"}),

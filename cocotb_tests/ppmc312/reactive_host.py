@@ -141,9 +141,10 @@ class UnsortedHost(ReactiveHost):
         rng, host = self.rng, self.host
         await self.send_block(self.finite_block(rng.choice((0, 0, 3, 12, 30))).hex())
         for _ in range(rng.randint(1, 5)):
-            sequence = self.model.motion.sequence
-            if not self.model.motion.active or sequence.plan.n is None:
+            motion = self.model.motion
+            if not motion.active or motion.sequence.plan.n is None:
                 return
+            sequence = motion.sequence
             left = sequence.plan.n - sequence.plan.down - sequence.done
             goal = sequence.done + rng.choice((rng.randint(0, 5), left + rng.randint(-8, 2)))
             while self.model.motion.active and sequence.done < goal and host.t < self.end:

@@ -207,9 +207,6 @@ WALKS = [
         "500x3 400x3 200x3 450x4 100x7 500x21 400x9 100x30",
         0x40,
     ),
-    # An instruction 87 that waits during the acceleration is discarded at the deceleration point. The
-    # deceleration then begins with all pulses of the present stage, not with those that were planned.
-    (TF, message(Code.RAMP, "00 0000 00000010"), [(4, change(0x87, 200))], "400x3 200x4 100x6 200x3", 0x40),
     # If two changes wait for one boundary, the newer one is used.
     (
         TF,
