@@ -14,7 +14,7 @@ from .host import EXECUTE, Host
 from .moves import after_steps, constant_speed_host, move, run, set_constant_speed, start, wait_stopped
 from .reference import HOME, boost, code, increment, lead, sines
 
-BEGUN = 25
+COMPUTATION = 25
 """Number of cycles from the beginning of a computation to the new references."""
 REFS = 64
 """Maximum number of cycles from a cause to the change of the references."""
@@ -257,9 +257,9 @@ async def p006_end_of_the_decay(dut: Any) -> None:
         fall = await wait_stopped(host)
         await host.go(fall + host.us(100_010) + REFS)
         reduced = host.edges("phase_a_ref", fall)[-1][0]
-        await host.go(host.t + (reduced + shift - BEGUN - host.t - busy) % 32)
+        await host.go(host.t + (reduced + shift - COMPUTATION - host.t - busy) % 32)
         begin = host.t
         await start(host, 1)
         assert host.edges("mon_busy", begin)[0][0] == begin + busy
         delays.append(host.edges("phase_a_ref", begin + busy)[0][0] - begin - busy)
-    assert delays == [BEGUN + 1, BEGUN, BEGUN + 31]
+    assert delays == [COMPUTATION + 1, COMPUTATION, COMPUTATION + 31]

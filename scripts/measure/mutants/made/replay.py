@@ -89,7 +89,7 @@ def replayed(work: Bulk) -> Result:
     """
     found: dict[str, str] = {}
     for file, _ in work.mutants:
-        digest(file)
+        digest(file)  # of the present text; killed.note uses it, even if the file changes during the replay
     for (part, params), recordings in designs().items():
         every = sources(rtl_part(part))
         left = [(file, n) for file, n in work.mutants if f"{file} {n}" not in found and ROOT / file in every]
